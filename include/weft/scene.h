@@ -26,6 +26,18 @@ WEFT_API WeftResult weft_scene_load(const char *path, WeftScene **out, const Wef
 WEFT_API WeftResult weft_scene_load_watched(const char *path, WeftProgress progress, void *user, WeftScene **out,
                                             const WeftLog *log, WeftError *error);
 
+/* A moment of an animation of a file. */
+typedef struct WeftMoment {
+    const char *animation; /* its name, or its index in digits; NULL: the first */
+    double time;           /* seconds; before the first key of a value and after its last one it stands still */
+} WeftMoment;
+
+/* Works as weft_scene_load_watched, and shows a moment of an animation: what moves nodes, morph targets and, by
+ * KHR_animation_pointer, other numbers. moment may be NULL: the file at rest. Fails with WEFT_MESSAGE_GLTF_REFERENCE
+ * where the file has no such animation. */
+WEFT_API WeftResult weft_scene_load_moment(const char *path, const WeftMoment *moment, WeftProgress progress,
+                                           void *user, WeftScene **out, const WeftLog *log, WeftError *error);
+
 /* Works as weft_scene_load, from size bytes of a .glb, or of a .gltf that refers to no other file. */
 WEFT_API WeftResult weft_scene_load_memory(const void *data, size_t size, const char *name, WeftScene **out,
                                            const WeftLog *log, WeftError *error);

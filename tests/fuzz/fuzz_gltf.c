@@ -1,7 +1,7 @@
 /* fuzz_gltf - the glTF reader: GLB and JSON from memory, all that can lie in one file
  *
  * Any input must be read or refused with one line; sanitizers watch the rest. What was read must keep the
- * promises of scene/record/scene.h. Use the dictionary gltf.dict. */
+ * promises of scene/record/scene.h. One with animations is read at a moment of the first. Use the dictionary gltf.dict. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -149,6 +149,14 @@ static void check_doctor(const uint8_t *data, size_t size) {
     weft_doctor_close(doctor);
 }
 
+/* Returns true if the word is anywhere in the input. */
+static bool has_word(const uint8_t *data, size_t size, const char *word) {
+    const size_t length = strlen(word);
+    for (size_t k = 0; k + length <= size; k++)
+        if (memcmp(data + k, word, length) == 0) return true;
+    return false;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     check_doctor(data, size);
     /* Not scene_create: its studio would cost more than the reading. */
@@ -157,7 +165,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     WeftError error;
     int warnings = 0;
     const WeftLog log = {count_warning, &warnings};
-    WeftResult result = gltf_read("fuzz", data, size, scene, &log, &error);
+    const WeftMoment moment = {.time = 0.75};
+    const bool moves = has_word(data, size, "animations");
+    WeftResult result = gltf_read_watched("fuzz", data, size, moves ? &moment : NULL, scene, NULL, NULL, &log, &error);
     if (result == WEFT_OK) {
         check_scene(scene);
         check_silence(data, size, warnings);

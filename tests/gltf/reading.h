@@ -29,13 +29,17 @@ static inline void note(void *user, WeftMessage message, const char *text) {
     snprintf(reading->warning, sizeof reading->warning, "%s", text);
 }
 
-/* path, or bytes called so. */
-static inline Reading *read_gltf(const char *path, const void *data, size_t size) {
+/* path, or bytes called so, at a moment of an animation; NULL: at rest. */
+static inline Reading *read_gltf_at(const WeftMoment *moment, const char *path, const void *data, size_t size) {
     Reading *reading = calloc(1, sizeof *reading);
     const WeftLog log = {note, reading};
     reading->scene = calloc(1, sizeof *reading->scene);
-    reading->result = gltf_read(path, data, size, reading->scene, &log, &reading->error);
+    reading->result = gltf_read_watched(path, data, size, moment, reading->scene, NULL, NULL, &log, &reading->error);
     return reading;
+}
+
+static inline Reading *read_gltf(const char *path, const void *data, size_t size) {
+    return read_gltf_at(NULL, path, data, size);
 }
 
 static inline void done(Reading *reading) {

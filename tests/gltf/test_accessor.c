@@ -307,6 +307,75 @@ static void meshopt_filters_are_undone(void **state) {
     release(d);
 }
 
+/* KHR_meshopt_compression: what EXT_ has, and the filter of colours. 8 bits each, and 12 bits in words of 16. */
+static void colors_of_the_newer_extension_are_undone(void **state) {
+    (void)state;
+    unsigned char encoded[1024] = {0};
+    static const unsigned char bytes[2][4] = {{112, 75, (unsigned char)-13, 255}, {64, 0, 0, 128}};
+    static const uint16_t words[4] = {2048, 0, 0, 0x0c00};
+    static const float expected[8] = {200 / 255.0f, 99 / 255.0f, 50 / 255.0f, 1,
+                                      64 / 255.0f,  64 / 255.0f, 64 / 255.0f, 0};
+    static const float wide[4] = {2048 / 4095.0f, 2048 / 4095.0f, 2048 / 4095.0f, 2048 / 4095.0f};
+    for (size_t width = 1; width <= 2; width++) {
+        const size_t count = width == 1 ? 2 : 1;
+        size_t size = meshopt_encodeVertexBuffer(encoded, sizeof encoded, width == 1 ? (const void *)bytes : words,
+                                                 count, 4 * width);
+        char *text = json("'bufferViews':[{'buffer':0,'byteLength':%zu,'extensions':{'KHR_meshopt_compression':{"
+                          "'buffer':0,'byteLength':%zu,'byteStride':%zu,'count':%zu,'mode':'ATTRIBUTES','filter':"
+                          "'COLOR'}}}],'accessors':[{'bufferView':0,'componentType':%d,'normalized':true,'count':%zu,"
+                          "'type':'VEC4'}]",
+                          4 * width * count, size, 4 * width, count, width == 1 ? 5121 : 5123, count);
+        Decoded *d = decode(encoded, size, "%s", text);
+        free(text);
+        if (!d->values) fail_msg("%s", d->error.text);
+        assert_all_near(d->values, width == 1 ? expected : wide, 4 * count, 1e-3f);
+        release(d);
+    }
+    assert_not_decoded(decode_compressed(encoded, 64, 4, 8, "ATTRIBUTES", "COLOR", 5121, "true", "VEC4"),
+                       WEFT_MESSAGE_GLTF_SCHEMA, "not a value");
+}
+
+static void note_warning(void *user, WeftMessage message, const char *text) {
+    (void)message;
+    snprintf(user, 256, "%s", text);
+}
+
+/* A stream that is not decoded, as one of a newer version: its fallback is read, or one line says what is wrong. */
+static void fallback_of_a_stream_that_is_not_decoded_is_read(void **state) {
+    (void)state;
+    static const uint16_t vertices[4][2] = {{1, 2}, {3, 4}, {5, 6}, {7, 8}};
+    unsigned char bytes[256] = {0};
+    memcpy(bytes, vertices, sizeof vertices);
+    const size_t size = meshopt_encodeVertexBuffer(bytes + 16, sizeof bytes - 16, vertices, 4, 4);
+    bytes[16] = 0xa1;
+    for (int fallback = 0; fallback < 2; fallback++) {
+        char said[256] = "";
+        const WeftLog log = {note_warning, said};
+        char *whole =
+            json("{'buffers':[{'byteLength':%zu,'uri':'%s'},{'byteLength':16%s%s%s}],'bufferViews':[{'buffer':1,"
+                 "'byteLength':16,'extensions':{'KHR_meshopt_compression':{'buffer':0,'byteLength':%zu,"
+                 "'byteStride':4,'count':4,'mode':'ATTRIBUTES'}}}],'accessors':[{'bufferView':0,"
+                 "'componentType':5123,'count':4,'type':'VEC2'}]}",
+                 size, uri(bytes + 16, size), fallback ? ",'uri':'" : "", fallback ? uri(bytes, 16) : "",
+                 fallback ? "'" : "", size);
+        Decoded *d = calloc(1, sizeof *d);
+        d->asset = (Asset){.name = "test", .scene = &d->scene, .error = &d->error, .limit = 1 << 20, .log = &log};
+        container_read(&d->asset, (Span){(const unsigned char *)whole, strlen(whole)});
+        buffers_read(&d->asset);
+        views_read(&d->asset);
+        accessors_read(&d->asset);
+        assert_int_equal(d->asset.result, WEFT_OK);
+        d->values = accessor_floats(&d->asset, &d->arena, 0);
+        free(whole);
+        const char *line = fallback ? said : d->error.text;
+        if (!strstr(line, "bufferViews[0]: version 1 of the vertex codec")) fail_msg("%s", line);
+        assert_int_equal(d->values != NULL, fallback);
+        for (int k = 0; k < 8 && fallback; k++) assert_near(d->values[k], (float)(k + 1), 0.0f);
+        if (fallback) assert_non_null(strstr(said, "the bytes without compression are used"));
+        release(d);
+    }
+}
+
 static void malformed_meshopt_views_are_refused(void **state) {
     (void)state;
     static const struct {
@@ -342,6 +411,8 @@ int main(void) {
         cmocka_unit_test(malformed_accessors_are_refused),
         cmocka_unit_test(meshopt_streams_of_every_mode_are_decoded),
         cmocka_unit_test(meshopt_filters_are_undone),
+        cmocka_unit_test(colors_of_the_newer_extension_are_undone),
+        cmocka_unit_test(fallback_of_a_stream_that_is_not_decoded_is_read),
         cmocka_unit_test(malformed_meshopt_views_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

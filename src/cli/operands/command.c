@@ -36,9 +36,9 @@ char *command_text(const Options *options) {
 }
 
 char *command_assign_text(const Options *options) {
-    static const char *const names[] = {"--variant",  "--preset",  "--material", "--materials", "--weave",
-                                        "--workflow", "--profile", "--diffuse",  "--sheen",     "--layer",
-                                        "--texture",  "--set",     "--convert",  "--light"};
+    static const char *const names[] = {
+        "--time",    "--animation", "--variant", "--preset", "--material", "--materials", "--weave",   "--workflow",
+        "--profile", "--diffuse",   "--sheen",   "--layer",  "--texture",  "--set",       "--convert", "--light"};
     size_t capacity = 1;
     for (int k = 0; k < options->argument_count; k++) capacity += 16 + 4 * strlen(options->arguments[k]);
     char *text = malloc(capacity), *to = text;

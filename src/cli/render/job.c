@@ -20,7 +20,9 @@ static WeftResult scene_open(Job *job, WeftScene **scene, WeftError *error) {
     const Request *request = job->request;
     int picture = request->engine == ENGINE_BOTH ? 0 : job->number;
     const WeftLog log = {.fn = warnings_log, .user = job->warnings};
-    WeftResult result = weft_scene_load(request->scene_options.scene, scene, &log, error);
+    WeftResult result = weft_scene_load_moment(request->scene_options.scene,
+                                               request->scene_options.moves ? &request->scene_options.moment : NULL,
+                                               NULL, NULL, scene, &log, error);
     if (result == WEFT_OK) result = scene_options_apply(&request->scene_options, picture, *scene, &log, error);
     return result;
 }

@@ -104,6 +104,15 @@ static bool read_env(const Options *options, SceneOptions *scene_options) {
     return false;
 }
 
+/* Reads the moment of an animation. */
+static bool read_moment(const Options *options, SceneOptions *scene_options) {
+    scene_options->moves = option_given(options, "--time");
+    scene_options->moment.animation = option_text(options, "--animation");
+    if (scene_options->moves) return option_number(options, "--time", &scene_options->moment.time);
+    if (scene_options->moment.animation) report(WEFT_USAGE, "--animation: needs --time");
+    return !scene_options->moment.animation;
+}
+
 /* Returns true unless the name begins with "builtin:" and no such scene is built in. */
 static bool check_scene(const char *scene) {
     static const char prefix[] = "builtin:";
@@ -185,8 +194,8 @@ static bool read_tone(const Options *options, SceneOptions *scene_options) {
 
 bool scene_options_read(const Options *options, const char *scene, SceneOptions *scene_options) {
     *scene_options = (SceneOptions){.options = options, .scene = scene, .camera = option_text(options, "--camera")};
-    return check_scene(scene) && read_background(options, scene_options) && read_env(options, scene_options) &&
-           read_tone(options, scene_options) &&
+    return check_scene(scene) && read_moment(options, scene_options) && read_background(options, scene_options) &&
+           read_env(options, scene_options) && read_tone(options, scene_options) &&
            option_number(options, "--env-rotation", &scene_options->env_rotation) &&
            option_number(options, "--env-strength", &scene_options->env_strength) &&
            option_number(options, "--env-ambient", &scene_options->env_ambient) &&

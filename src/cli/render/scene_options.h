@@ -12,6 +12,11 @@ enum { SCENE_LIGHTS_MOST = 64 };
         OPTION_TEXT("--camera", "CAMERA", NULL,                                                                        \
                     "auto, which frames the scene, a camera's name or index, or \"eye;target;fov\" as "                \
                     "\"x,y,z;x,y,z;degrees\" [auto; the first camera of a built-in scene]"),                           \
+        OPTION_NUMBER("--time", "SECONDS", NULL, -1e9, 1e9,                                                            \
+                      "show the file's animation at this time; before its first key and after its last it stands "     \
+                      "still [the file at rest]"),                                                                     \
+        OPTION_TEXT("--animation", "NAME", NULL,                                                                       \
+                    "the animation of --time, by its name or index, of a file that has several [the first]"),          \
         OPTION_TEXT("--env", "FILE|r,g,b", NULL,                                                                       \
                     "light from a lat-long picture or a cube map, a KTX 2 file, a folder or one of six files posx "    \
                     "negx posy negy posz negz; or one radiance (r,g,b or a number) from everywhere [a studio]"),       \
@@ -48,6 +53,8 @@ enum { SCENE_LIGHTS_MOST = 64 };
 typedef struct SceneOptions {
     const Options *options;
     const char *scene;
+    bool moves; /* the scene is shown at `moment` */
+    WeftMoment moment;
     Assignments assignment;
     const char *camera, *env; /* NULL: none was named */
     WeftTone tone;

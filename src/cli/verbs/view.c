@@ -92,6 +92,7 @@ static int view_verb_run(const Options *options) {
         return report(WEFT_USAGE, "%s: the window shows one picture: give one value",
                       scene_options.assignment.varied[0].option);
     desc.configure = configure_scene;
+    desc.moment = scene_options.moves ? &scene_options.moment : NULL;
     desc.user = &scene_options;
     desc.camera = scene_options.camera;
     desc.background = scene_options.background;

@@ -17,6 +17,7 @@
 #include "gltf/asset/transform.h"
 #include "scene/record/scene.h"
 #include "weft/result.h"
+#include "weft/scene.h"
 
 /* Borrowed bytes. */
 typedef struct Span {
@@ -46,18 +47,18 @@ typedef struct AssetBuffer {
     unsigned char *owned; /* what to free when the read ends, or NULL */
 } AssetBuffer;
 
-/* EXT_meshopt_compression of a buffer view. */
+/* KHR_meshopt_compression or EXT_meshopt_compression of a buffer view. */
 typedef struct Compression {
     Span source;
     size_t count, stride;
     enum { MODE_ATTRIBUTES, MODE_TRIANGLES, MODE_INDICES } mode;
-    enum { FILTER_NONE, FILTER_OCTAHEDRAL, FILTER_QUATERNION, FILTER_EXPONENTIAL } filter;
+    enum { FILTER_NONE, FILTER_OCTAHEDRAL, FILTER_QUATERNION, FILTER_EXPONENTIAL, FILTER_COLOR } filter;
 } Compression;
 
 typedef struct BufferView {
-    Span span;                /* decoded on first use where compressed */
+    Span span;                /* decoded on first use where compressed: its data are until then those of the fallback */
     size_t stride;            /* 0: packed */
-    Compression *compression; /* NULL: none */
+    Compression *compression; /* until it is decoded; NULL: none */
     int image;                /* of the scene, + 1; 0: none */
 } BufferView;
 
@@ -124,20 +125,26 @@ typedef struct Skin {
     int inverse_bind; /* accessor, -1: identities */
 } Skin;
 
+enum { INSTANCE_ATTRIBUTES = 3 };
+
 typedef struct Node {
     const char *name;
     int parent, mesh, skin, camera, light; /* -1: none */
     bool shown;                            /* reached from the scene that is shown */
+    bool hidden;                           /* by KHR_node_visibility, itself or an ancestor */
+    int instance[INSTANCE_ATTRIBUTES];     /* accessors of translations, rotations, scales; -1: none */
+    size_t instance_count;                 /* 0: the mesh is there once, at the node */
     float *weights;                        /* replace those of the mesh; NULL: none */
     size_t weight_count;
     Transform local, world;
 } Node;
 
 typedef struct Asset {
-    const char *name; /* subject of messages */
-    bool in_memory;   /* files beside it are refused */
-    bool examined;    /* for the doctor: no extension is refused, the textures of unused materials are read
+    const char *name;         /* subject of messages */
+    bool in_memory;           /* files beside it are refused */
+    bool examined;            /* for the doctor: no extension is refused, the textures of unused materials are read
                          too, and an image that cannot be read is a warning */
+    const WeftMoment *moment; /* of an animation, which is shown; NULL: at rest */
     const WeftLog *log;
     const struct Field *place; /* while a warning is given: the value that it is about; NULL: the asset */
     WeftError *error;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fail.h"
 #include "gltf/asset/asset_file.h"
 #include "gltf/asset/field.h"
 #include "gltf/asset/meshopt.h"
@@ -94,9 +95,10 @@ static int choice(const Field *field, const char *absent, const char *const *nam
     return 0;
 }
 
-static void compression_read(const Field *field, BufferView *view) {
+/* filter_count: of the names of filters, those that the extension has. */
+static void compression_read(const Field *field, int filter_count, BufferView *view) {
     static const char *const modes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
-    static const char *const filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
+    static const char *const filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
     Asset *asset = field->asset;
     Compression *compression = asset_array(asset, &asset->arena, 1, sizeof *compression);
     if (!compression) return;
@@ -110,16 +112,19 @@ static void compression_read(const Field *field, BufferView *view) {
     case 2: compression->mode = MODE_INDICES; break;
     default: compression->mode = MODE_ATTRIBUTES; break;
     }
-    switch (choice(&filter, "NONE", filters, 4)) {
+    switch (choice(&filter, "NONE", filters, filter_count)) {
     case 1: compression->filter = FILTER_OCTAHEDRAL; break;
     case 2: compression->filter = FILTER_QUATERNION; break;
     case 3: compression->filter = FILTER_EXPONENTIAL; break;
+    case 4: compression->filter = FILTER_COLOR; break;
     default: compression->filter = FILTER_NONE; break;
     }
     const char *reason = meshopt_reason(compression, view->span.size);
     if (reason) field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "%s", reason);
     view->compression = compression;
-    view->span.data = NULL;
+    Field packed = field_member(field, "buffer"), plain = field_member(field->parent, "buffer");
+    if (field_index(&packed, asset->buffer_count) == field_index(&plain, asset->buffer_count))
+        view->span.data = NULL; /* there are only the compressed bytes */
 }
 
 void views_read(Asset *asset) {
@@ -128,23 +133,34 @@ void views_read(Asset *asset) {
     asset->views = asset_array(asset, &asset->arena, asset->view_count, sizeof *asset->views);
     for (size_t i = 0; i < asset->view_count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&list, i), stride = field_member(&field, "byteStride");
-        Field meshopt = field_extension(&field, "EXT_meshopt_compression");
+        Field newer = field_extension(&field, "KHR_meshopt_compression"),
+              older = field_extension(&field, "EXT_meshopt_compression");
         BufferView *view = &asset->views[i];
         view->span = section(&field);
         view->stride = field_size(&stride, 0, 4, 252);
-        if (meshopt.json && asset->result == WEFT_OK) compression_read(&meshopt, view);
+        if (asset->result != WEFT_OK || (!newer.json && !older.json)) continue;
+        compression_read(newer.json ? &newer : &older, newer.json ? 5 : 4, view);
     }
+}
+
+/* Decompresses a view, or keeps the bytes of its fallback, with a warning. */
+static void view_decode(Asset *asset, int index) {
+    BufferView *view = &asset->views[index];
+    unsigned char *decoded = asset_array(asset, &asset->arena, view->span.size, 1);
+    const char *reason = decoded ? meshopt_decode(view->compression, decoded) : NULL;
+    view->compression = NULL;
+    if (!reason)
+        view->span.data = decoded;
+    else if (view->span.data)
+        warn(asset->log, WEFT_MESSAGE_GLTF_WARN_REPAIRED, asset->name,
+             "bufferViews[%d]: %s; the bytes without compression are used", index, reason);
+    else
+        asset_fail(asset, WEFT_MESSAGE_GLTF_DECODE, "bufferViews[%d]: %s", index, reason);
 }
 
 Span view_bytes(Asset *asset, int index) {
     BufferView *view = &asset->views[index];
-    if (!view->span.data && view->compression && asset->result == WEFT_OK) {
-        unsigned char *decoded = asset_array(asset, &asset->arena, view->span.size, 1);
-        if (decoded && !meshopt_decode(view->compression, decoded))
-            asset_fail(asset, WEFT_MESSAGE_GLTF_DECODE, "bufferViews[%d]", index);
-        else
-            view->span.data = decoded;
-    }
+    if (view->compression && asset->result == WEFT_OK) view_decode(asset, index);
     if (!view->span.data)
         asset_fail(asset, WEFT_MESSAGE_GLTF_REFERENCE, "bufferViews[%d]: its buffer has no data", index);
     return asset->result == WEFT_OK ? view->span : (Span){0};

@@ -136,7 +136,7 @@ extern "C" size_t draco_triangle_count(const DracoMesh *mesh) { return mesh->mes
 
 extern "C" bool draco_attribute(const DracoMesh *mesh, uint32_t id, DracoType type, int rows, void *out) try {
     const draco::PointAttribute *from = mesh->mesh.GetAttributeByUniqueId(id);
-    if (!from || from->num_components() < rows) return false;
+    if (!from || from->num_components() < rows || from->data_type() == draco::DT_BOOL) return false;
     if (type.is_float) return copy<float>(mesh->mesh, *from, rows, out);
     switch (type.size) {
     case 1: return (type.is_signed ? copy<int8_t> : copy<uint8_t>)(mesh->mesh, *from, rows, out);

@@ -1,6 +1,7 @@
-/* meshopt.h - EXT_meshopt_compression, decoded by libmeshoptimizer
+/* meshopt.h - KHR_meshopt_compression and EXT_meshopt_compression, decoded by libmeshoptimizer
  *
- * Specification: Arseny Kapoulkine et al., "EXT_meshopt_compression", Khronos glTF extension registry. */
+ * Specification: Arseny Kapoulkine et al., "EXT_meshopt_compression" and "KHR_meshopt_compression", Khronos
+ * glTF extension registry. */
 #pragma once
 
 #include "gltf/asset/asset.h"
@@ -9,5 +10,5 @@
  * decoder asserts these rules: do not call meshopt_decode unless this is NULL. */
 const char *meshopt_reason(const Compression *compression, size_t size);
 
-/* Decodes count * stride bytes into out and applies the filter. Returns false if the data are damaged. */
-bool meshopt_decode(const Compression *compression, unsigned char *out);
+/* Decodes count * stride bytes into out and applies the filter. Returns why not, or NULL. */
+const char *meshopt_decode(const Compression *compression, unsigned char *out);

@@ -10,6 +10,7 @@
 #include "gltf/asset/container.h"
 #include "gltf/asset/field.h"
 #include "gltf/asset/material_fields.h"
+#include "gltf/read/animation.h"
 #include "gltf/read/gltf_camera.h"
 #include "gltf/read/gltf_material.h"
 #include "gltf/read/gltf_texture.h"
@@ -36,7 +37,8 @@ static void version_check(Asset *asset) {
 bool gltf_supports(const char *extension) {
     /* beside those of material_fields.h */
     static const char *const names[] = {
-        "EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual",   "KHR_materials_unlit",
+        "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",    "KHR_animation_pointer", "KHR_meshopt_compression",
+        "KHR_node_visibility",     "KHR_draco_mesh_compression", "KHR_lights_punctual",   "KHR_materials_unlit",
         "KHR_materials_variants",  "KHR_mesh_quantization",      "KHR_texture_transform",
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
@@ -84,8 +86,6 @@ static void extensions_check(Asset *asset) {
     }
     if (asset->result == WEFT_OK) unnamed_check(asset, asset->root, named);
     json_decref(named);
-    Field animations = field_member(&root, "animations");
-    if (field_count(&animations)) field_warn(&animations, WEFT_MESSAGE_GLTF_WARN_IGNORED, "nothing moves");
 }
 
 static void skins_and_nodes_read(Asset *asset) {
@@ -96,9 +96,9 @@ static void skins_and_nodes_read(Asset *asset) {
 
 /* In the order in which they refer to one another. */
 static void (*const stages[])(Asset *) = {
-    version_check,  extensions_check, buffers_read, views_read,       accessors_read, textures_read,
-    materials_read, variants_read,    meshes_read,  cameras_count,    lights_count,   skins_and_nodes_read,
-    cameras_read,   lights_read,      meshes_bake,  textures_resolve,
+    version_check,        extensions_check, buffers_read,  views_read,  accessors_read,   animation_apply,
+    textures_read,        materials_read,   variants_read, meshes_read, cameras_count,    lights_count,
+    skins_and_nodes_read, cameras_read,     lights_read,   meshes_bake, textures_resolve,
 };
 
 static const size_t FILE_MAX = (size_t)4 << 30, LIMIT_FIRST = (size_t)256 << 20;
@@ -131,12 +131,13 @@ void gltf_close(Asset *asset) {
 
 WeftResult gltf_read(const char *path, const void *data, size_t size, WeftScene *scene, const WeftLog *log,
                      WeftError *error) {
-    return gltf_read_watched(path, data, size, scene, NULL, NULL, log, error);
+    return gltf_read_watched(path, data, size, NULL, scene, NULL, NULL, log, error);
 }
 
-WeftResult gltf_read_watched(const char *path, const void *data, size_t size, WeftScene *scene, WeftProgress progress,
-                             void *user, const WeftLog *log, WeftError *error) {
-    Asset asset = {.log = log, .error = error, .progress = progress, .user = user, .scene = scene};
+WeftResult gltf_read_watched(const char *path, const void *data, size_t size, const WeftMoment *moment,
+                             WeftScene *scene, WeftProgress progress, void *user, const WeftLog *log,
+                             WeftError *error) {
+    Asset asset = {.moment = moment, .log = log, .error = error, .progress = progress, .user = user, .scene = scene};
     gltf_open(&asset, path, data, size);
     gltf_read_parts(&asset);
     WeftResult result = asset.result;

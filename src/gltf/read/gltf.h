@@ -13,9 +13,10 @@
 WeftResult gltf_read(const char *path, const void *data, size_t size, WeftScene *scene, const WeftLog *log,
                      WeftError *error);
 
-/* Works as gltf_read and reports progress (may be NULL), which can stop it with WEFT_INTERRUPTED. */
-WeftResult gltf_read_watched(const char *path, const void *data, size_t size, WeftScene *scene, WeftProgress progress,
-                             void *user, const WeftLog *log, WeftError *error);
+/* Works as gltf_read at a moment of an animation (may be NULL: at rest) and reports progress (may be NULL), which can
+ * stop it with WEFT_INTERRUPTED. */
+WeftResult gltf_read_watched(const char *path, const void *data, size_t size, const WeftMoment *moment,
+                             WeftScene *scene, WeftProgress progress, void *user, const WeftLog *log, WeftError *error);
 
 /* Reads like gltf_read, in three steps, for callers that need more than the scene. The caller sets log, error, progress
  * and user, and scene before the second step; the rest of asset is 0. gltf_open sets root, text, bin and packed.

@@ -69,11 +69,12 @@ void lights_read(Asset *asset) {
     Field root = field_root(asset), extension = field_extension(&root, "KHR_lights_punctual"),
           list = field_member(&extension, "lights");
     size_t count = 0;
-    for (size_t i = 0; i < asset->node_count; i++) count += asset->nodes[i].shown && asset->nodes[i].light >= 0;
+    for (size_t i = 0; i < asset->node_count; i++)
+        count += asset->nodes[i].shown && !asset->nodes[i].hidden && asset->nodes[i].light >= 0;
     scene->lights = asset_array(asset, &scene->arena, count, sizeof *scene->lights);
     for (size_t i = 0; i < asset->node_count && asset->result == WEFT_OK; i++) {
         const Node *node = &asset->nodes[i];
-        if (!node->shown || node->light < 0) continue;
+        if (!node->shown || node->hidden || node->light < 0) continue;
         Field field = field_element(&list, (size_t)node->light);
         if (light_read(&field, node, &scene->lights[scene->light_count])) scene->light_count++;
     }

@@ -11,10 +11,11 @@
 
 static const char builtin_prefix[] = "builtin:";
 
-/* The receiver of progress. */
+/* The receiver of progress, and what is shown. */
 typedef struct Watcher {
     WeftProgress progress; /* may be NULL */
     void *user;
+    const WeftMoment *moment; /* may be NULL */
 } Watcher;
 
 static WeftResult load_builtin(const char *path, Watcher watcher, WeftScene *scene, WeftError *error) {
@@ -22,9 +23,10 @@ static WeftResult load_builtin(const char *path, Watcher watcher, WeftScene *sce
     for (int k = 0; builtin_at(k); k++) {
         const Builtin *builtin = builtin_at(k);
         if (strcmp(builtin->name, name) != 0) continue;
+        if (watcher.moment) return fail(error, WEFT_MESSAGE_GLTF_REFERENCE, path, "it has no animation");
         if (builtin->make) return builtin->make(scene, error);
-        return gltf_read_watched(path, builtin->glb, (size_t)(builtin->glb_end - builtin->glb), scene, watcher.progress,
-                                 watcher.user, NULL, error);
+        return gltf_read_watched(path, builtin->glb, (size_t)(builtin->glb_end - builtin->glb), NULL, scene,
+                                 watcher.progress, watcher.user, NULL, error);
     }
     return fail(error, WEFT_MESSAGE_SCENE_NAME, path, "available: %s%s", builtin_prefix, builtin_at(0)->name);
 }
@@ -39,7 +41,7 @@ static WeftResult load(const char *path, const void *data, size_t size, Watcher 
     if (alone || (!data && strncmp(path, builtin_prefix, strlen(builtin_prefix)) == 0))
         result = load_builtin(alone ? "builtin:cloth" : path, watcher, scene, error);
     else
-        result = gltf_read_watched(path, data, size, scene, watcher.progress, watcher.user, log, error);
+        result = gltf_read_watched(path, data, size, watcher.moment, scene, watcher.progress, watcher.user, log, error);
     if (result == WEFT_OK) {
         scene_bounds(scene);
         environment_give_way(scene);
@@ -59,7 +61,12 @@ WeftResult weft_scene_load(const char *path, WeftScene **out, const WeftLog *log
 
 WeftResult weft_scene_load_watched(const char *path, WeftProgress progress, void *user, WeftScene **out,
                                    const WeftLog *log, WeftError *error) {
-    return load(path, NULL, 0, (Watcher){progress, user}, out, log, error);
+    return load(path, NULL, 0, (Watcher){progress, user, NULL}, out, log, error);
+}
+
+WeftResult weft_scene_load_moment(const char *path, const WeftMoment *moment, WeftProgress progress, void *user,
+                                  WeftScene **out, const WeftLog *log, WeftError *error) {
+    return load(path, NULL, 0, (Watcher){progress, user, moment}, out, log, error);
 }
 
 WeftResult weft_scene_load_memory(const void *data, size_t size, const char *name, WeftScene **out, const WeftLog *log,

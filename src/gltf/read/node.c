@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "gltf/asset/field.h"
+#include "gltf/read/instances.h"
 
 /* Returns the rotation of a quaternion x, y, z, w of any length; the identity if it is 0 or not finite. */
 static Transform rotation(const double q[4]) {
@@ -15,6 +16,15 @@ static Transform rotation(const double q[4]) {
                         {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y), 0}}};
 }
 
+Transform node_transform(const double t[3], const double q[4], const double s[3]) {
+    Transform local = rotation(q);
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) local.m[r][c] *= s[c];
+        local.m[r][3] = t[r];
+    }
+    return local;
+}
+
 static Transform local_read(const Field *field) {
     Field matrix = field_member(field, "matrix"), translation = field_member(field, "translation"),
           rotation_field = field_member(field, "rotation"), scale = field_member(field, "scale");
@@ -22,11 +32,7 @@ static Transform local_read(const Field *field) {
     field_doubles(&translation, t, 3);
     field_doubles(&rotation_field, q, 4);
     field_doubles(&scale, s, 3);
-    Transform local = rotation(q);
-    for (int r = 0; r < 3; r++) {
-        for (int c = 0; c < 3; c++) local.m[r][c] *= s[c];
-        local.m[r][3] = t[r];
-    }
+    Transform local = node_transform(t, q, s);
     if (!field_doubles(&matrix, m, 16)) return local;
     if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0)
         field_fail(&matrix, WEFT_MESSAGE_GLTF_SCHEMA, "its last row is not 0 0 0 1");
@@ -48,13 +54,16 @@ static void node_read(const Field *field, Node *node) {
     Asset *asset = field->asset;
     Field name = field_member(field, "name"), mesh = field_member(field, "mesh"), skin = field_member(field, "skin"),
           camera = field_member(field, "camera"), weights = field_member(field, "weights"),
-          lights = field_extension(field, "KHR_lights_punctual"), light = field_member(&lights, "light");
+          lights = field_extension(field, "KHR_lights_punctual"), light = field_member(&lights, "light"),
+          visibility = field_extension(field, "KHR_node_visibility"), visible = field_member(&visibility, "visible");
     node->name = field_text(&name, "");
     node->mesh = field_index(&mesh, asset->mesh_count);
     node->skin = field_index(&skin, asset->skin_count);
     node->camera = field_index(&camera, asset->camera_count);
     node->light = field_index(&light, asset->light_count);
     node->local = local_read(field);
+    node->hidden = !field_bool(&visible, true);
+    instances_read(field, node);
     node->weights = weights_read(&weights, &node->weight_count);
 }
 
@@ -134,6 +143,7 @@ void nodes_read(Asset *asset) {
         const Node *parent = node->parent < 0 ? NULL : &asset->nodes[node->parent];
         node->world = parent ? transform_product(&parent->world, &node->local) : node->local;
         if (parent && parent->shown) node->shown = true;
+        if (parent && parent->hidden) node->hidden = true;
         for (int e = 0; e < 12; e++)
             if (!(fabs(node->world.m[e / 4][e % 4]) <= 1e38))
                 asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "nodes[%d]: its transform", asset->node_order[i]);

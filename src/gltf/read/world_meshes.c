@@ -5,6 +5,7 @@
 #include "gltf/asset/accessor.h"
 #include "gltf/read/draco_primitive.h"
 #include "gltf/read/gather.h"
+#include "gltf/read/instances.h"
 #include "gltf/read/mesh.h"
 #include "gltf/read/pose.h"
 #include "gltf/read/tangent.h"
@@ -23,6 +24,7 @@ typedef struct MeshBake {
     const Primitive *primitive;
     Mesh *mesh;
     Pose pose;
+    bool again; /* it was baked for another instance, whose warnings were given */
 } MeshBake;
 
 static void bake_fail(const MeshBake *bake, WeftMessage message, const char *what) {
@@ -31,6 +33,7 @@ static void bake_fail(const MeshBake *bake, WeftMessage message, const char *wha
 }
 
 static void bake_warn(const MeshBake *bake, const char *what) {
+    if (bake->again) return;
     warn(bake->asset->log, WEFT_MESSAGE_GLTF_WARN_REPAIRED, bake->asset->name, "meshes[%d].primitives[%d]: %s",
          bake->node->mesh, (int)(bake->primitive - bake->asset->meshes[bake->node->mesh].primitives), what);
 }
@@ -273,42 +276,60 @@ static bool bake_primitive(MeshBake *bake) {
     return true;
 }
 
-/* Returns an upper bound of the number of surfaces of all shown nodes; warns of skins and morph targets,
- * which do not move. */
+/* Returns true if the meshes of a node are shown. */
+static bool shows_mesh(const Node *node) { return node->shown && !node->hidden && node->mesh >= 0; }
+
+/* Returns an upper bound of the number of surfaces of all shown nodes, SIZE_MAX where it is more; warns of skins and
+ * morph targets, which do not move. */
 static size_t count_surfaces(Asset *asset) {
     bool skins = false, morphs = false;
     size_t count = 0;
     for (size_t i = 0; i < asset->node_count; i++) {
         const Node *node = &asset->nodes[i];
-        if (!node->shown || node->mesh < 0) continue;
-        count += asset->meshes[node->mesh].primitive_count;
+        if (!shows_mesh(node)) continue;
+        const size_t primitives = asset->meshes[node->mesh].primitive_count;
+        if (primitives && instances_count(node) > (SIZE_MAX - count) / primitives) return SIZE_MAX;
+        count += primitives * instances_count(node);
         skins |= node->skin >= 0;
         morphs |= asset->meshes[node->mesh].morphs;
     }
+    if (asset->moment) return count;
     if (skins) warn(asset->log, WEFT_MESSAGE_GLTF_WARN_REST_POSE, asset->name, "its skins");
     if (morphs) warn(asset->log, WEFT_MESSAGE_GLTF_WARN_REST_POSE, asset->name, "its morph targets");
     return count;
+}
+
+/* Bakes every primitive of a node's mesh once, for an instance. */
+static void bake_mesh(Asset *asset, const Node *node, size_t instance, size_t surfaces) {
+    WeftScene *scene = asset->scene;
+    MeshSource *source = &asset->meshes[node->mesh];
+    for (size_t p = 0; p < source->primitive_count && asset->result == WEFT_OK; p++) {
+        draco_unpack(asset, node->mesh, &source->primitives[p]);
+        MeshBake bake = {.asset = asset,
+                         .node = node,
+                         .primitive = &source->primitives[p],
+                         .mesh = &scene->meshes[scene->mesh_count],
+                         .again = instance > 0};
+        if (asset->result != WEFT_OK || bake.primitive->mode < 4 || bake.primitive->position < 0) continue;
+        if (bake_primitive(&bake)) scene->mesh_count++;
+        arena_free(&bake.scratch);
+        asset_progress(asset, 0.25, 0.5, (size_t)scene->mesh_count, surfaces);
+    }
 }
 
 void meshes_bake(Asset *asset) {
     WeftScene *scene = asset->scene;
     const size_t surfaces = count_surfaces(asset);
     scene->meshes = asset_array(asset, &scene->arena, surfaces, sizeof *scene->meshes);
-    if (asset->result != WEFT_OK) return;
-    for (size_t i = 0; i < asset->node_count; i++) {
-        const Node *node = &asset->nodes[i];
-        size_t primitives = node->shown && node->mesh >= 0 ? asset->meshes[node->mesh].primitive_count : 0;
-        for (size_t p = 0; p < primitives && asset->result == WEFT_OK; p++) {
-            draco_unpack(asset, node->mesh, &asset->meshes[node->mesh].primitives[p]);
-            if (asset->result != WEFT_OK) break;
-            MeshBake bake = {.asset = asset,
-                             .node = node,
-                             .primitive = &asset->meshes[node->mesh].primitives[p],
-                             .mesh = &scene->meshes[scene->mesh_count]};
-            if (bake.primitive->mode < 4 || bake.primitive->position < 0) continue;
-            if (bake_primitive(&bake)) scene->mesh_count++;
-            arena_free(&bake.scratch);
-            asset_progress(asset, 0.25, 0.5, (size_t)scene->mesh_count, surfaces);
+    for (size_t i = 0; i < asset->node_count && asset->result == WEFT_OK; i++) {
+        if (!shows_mesh(&asset->nodes[i])) continue;
+        Arena scratch = {0};
+        Node placed = asset->nodes[i];
+        const Instances instances = instances_decode(asset, &scratch, &placed);
+        for (size_t k = 0; k < instances_count(&placed) && asset->result == WEFT_OK; k++) {
+            placed.world = instances_world(&instances, &asset->nodes[i], k);
+            bake_mesh(asset, &placed, k, surfaces);
         }
+        arena_free(&scratch);
     }
 }

@@ -341,7 +341,8 @@ static WeftResult load(Loader *self, WeftError *error) {
     if (result != WEFT_OK) return result;
     loaded->taken = loaded->lobe[0] != 0;
     read_session(self, &log);
-    result = weft_scene_load_watched(loaded->path, on_progress, self, &loaded->scene, &log, error);
+    result = weft_scene_load_moment(loaded->path, self->configured ? desc->moment : NULL, on_progress, self,
+                                    &loaded->scene, &log, error);
     if (result == WEFT_OK && atomic_load(&self->stop)) result = WEFT_INTERRUPTED;
     const int own_maps = result == WEFT_OK ? count_maps(loaded->scene) : 0;
     if (result == WEFT_OK && self->configured && desc->configure)

@@ -15,7 +15,8 @@ typedef struct ViewDesc {
     WeftResult (*configure)(void *user, WeftScene *scene, EnvironmentState *environment, const WeftLog *log,
                             WeftError *error);
     void *user;
-    const char *camera; /* NULL: a built-in scene's first one, else auto */
+    const WeftMoment *moment; /* of an animation of the scene that is configured; NULL: at rest */
+    const char *camera;       /* NULL: a built-in scene's first one, else auto */
     WeftBackground background;
     float background_color[3];
     WeftFloor floor;
