@@ -104,7 +104,8 @@ static void engines_see_as_much_hair_at_each_height(void **state) {
 }
 
 static bool is_same(WeftImage a, WeftImage b) {
-    const bool same = memcmp(a.pixels, b.pixels, (size_t)ACROSS * ROWS * 4 * sizeof(float)) == 0;
+    const size_t size = (size_t)ACROSS * ROWS * 4 * sizeof(float);
+    const bool same = a.pixels && b.pixels && memcmp(a.pixels, b.pixels, size) == 0;
     weft_image_free(&a);
     weft_image_free(&b);
     return same;

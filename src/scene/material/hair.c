@@ -134,8 +134,8 @@ static void color_root(const Growth *growth, Root *root) {
 
 /* Grows the fibres of a triangle: their number on the mean, rounded at random to a whole one. */
 static void grow_triangle(Growth *growth, uint32_t triangle) {
-    const double wanted = expected(growth->on, growth->material, triangle) + (double)draw(growth);
-    for (double k = 1.0; k <= wanted; k += 1.0) {
+    const uint32_t count = (uint32_t)(expected(growth->on, growth->material, triangle) + (double)draw(growth));
+    for (uint32_t k = 0; k < count; k++) {
         Root root = draw_root(growth, growth->on->index + 3 * (size_t)triangle);
         if (draw(growth) >= material_opacity(growth->scene, growth->material, root.uv, root.color[3])) continue;
         color_root(growth, &root);
