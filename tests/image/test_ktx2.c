@@ -188,7 +188,7 @@ static WeftImage picture_of(const Bytes *bytes, int level, int face) {
     const ImageSource source = {.data = bytes->data, .size = bytes->size, .name = "bytes", .log = NULL};
     Ktx2 file;
     WeftError error = {0};
-    WeftImage image;
+    WeftImage image = {0};
     if (ktx2_open(&source, &file, &error) != WEFT_OK || ktx2_picture(&file, level, face, &image, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     return image;
@@ -561,8 +561,9 @@ static void written_levels_are_means_or_given(void **state) {
     weft_image_free(&image);
 }
 
-/* Halves of one colour each are cut where they meet; the base and step of a solid block give its colour. */
-static void hints_for_etc1_are_near(void **state) {
+/* Halves of one colour each are cut where they meet; the base and step of a solid block give its colour;
+ * a wider range of alpha has a greater multiplier. */
+static void hints_for_etc_are_near(void **state) {
     (void)state;
     static const uint8_t halves[2][4] = {{240, 30, 20, 255}, {16, 40, 200, 255}};
     for (int flip = 0; flip < 2; flip++) {
@@ -572,6 +573,13 @@ static void hints_for_etc1_are_near(void **state) {
         assert_int_equal(hint.flip, flip);
         assert_int_equal(hint.differential, 0); /* the colours are too far apart for a difference */
     }
+    uint8_t near[16][4] = {{0}}, far[16][4] = {{0}};
+    for (int t = 0; t < 16; t++) {
+        near[t][3] = (uint8_t)(100 + t / 2);
+        far[t][3] = (uint8_t)(17 * t);
+    }
+    assert_int_equal(uastc_etc2_alpha(near) >> 4, 1);
+    assert_in_range(uastc_etc2_alpha(far) >> 4, 8, 15);
     static const int steps[8][2] = {{2, 8}, {5, 17}, {9, 29}, {13, 42}, {18, 60}, {24, 80}, {33, 106}, {47, 183}};
     for (int k = 0; k < 512; k++) {
         const uint8_t color[4] = {(uint8_t)(k % 8 * 36), (uint8_t)(k / 8 % 8 * 36), (uint8_t)(k / 64 * 36), 255};
@@ -599,7 +607,7 @@ int main(void) {
         cmocka_unit_test(zstandard_that_lies_is_refused),
         cmocka_unit_test(written_picture_is_near),
         cmocka_unit_test(written_levels_are_means_or_given),
-        cmocka_unit_test(hints_for_etc1_are_near),
+        cmocka_unit_test(hints_for_etc_are_near),
     };
     return cmocka_run_group_tests_name("ktx2", tests, NULL, NULL);
 }

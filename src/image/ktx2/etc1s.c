@@ -293,7 +293,8 @@ static WeftResult parts_put(const Ktx2 *file, const Codebooks *books, const unsi
     const uint32_t columns = (uint32_t)(out->width + 3) / 4, rows = (uint32_t)(out->height + 3) / 4;
     const size_t count = (size_t)columns * rows;
     Reference *references = alloc_array(2 * count, sizeof(Reference));
-    WeftResult result = references ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, file->source->name, NULL);
+    if (!references) return fail(error, WEFT_MESSAGE_MEMORY, file->source->name, NULL);
+    WeftResult result = WEFT_OK;
     bool second = false;
     for (int c = 0; c < file->channels; c++) second |= file->from[c] == 3;
     for (int part = 0; part < (second ? 2 : 1) && result == WEFT_OK; part++) {
@@ -335,7 +336,7 @@ WeftResult ktx2_etc1s_picture(const Ktx2 *file, int level, int face, WeftImage *
         return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, source->name, "KTX 2: a frame that needs the one before it");
     Codebooks *books = NULL;
     WeftResult result = books_read(file, global, size, images, &books, error);
-    if (result != WEFT_OK) return result;
+    if (!books) return result;
     result = parts_put(file, books, image, source->data + level_at, level_size, out, error);
     books_free(books);
     return result;

@@ -152,7 +152,7 @@ static WeftResult picture_read(const Ktx2 *file, int level, int face, WeftImage 
     Ktx2Bytes data;
     WeftResult result =
         ktx2_level_bytes(file, level, (size_t)face * ktx2_side(file->depth, level) * slice, slice, &data, error);
-    if (result != WEFT_OK) return result;
+    if (!data.data) return result;
     if (file->coding == KTX2_UASTC)
         result = uastc_put(file, data.data, out, error);
     else

@@ -1,4 +1,5 @@
 /* ktx2_write.c - a picture and its mip levels as KTX 2: UASTC packed by Zstandard, as KHR_texture_basisu takes it */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,7 +48,7 @@ static uint8_t *texels_of(const WeftImage *image) {
             const bool is_alpha = c == 3, has_alpha = channels % 2 == 0;
             const size_t from = is_alpha ? channels - 1 : channels < 3 ? 0 : c;
             texels[4 * n + c] =
-                is_alpha && !has_alpha ? 255 : (uint8_t)(pixel_value(image, n * channels + from) * 255.0 + 0.5);
+                is_alpha && !has_alpha ? 255 : (uint8_t)lround(pixel_value(image, n * channels + from) * 255.0);
         }
     return texels;
 }

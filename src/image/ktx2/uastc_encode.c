@@ -288,19 +288,6 @@ static void digits_put(Writer *writer, UastcDigit digit, const uint8_t *digits, 
     }
 }
 
-/* Writes the hints for ETC1 behind those for BC1, which stay 0. Modes 10 to 12 have one of the latter and no bias; the bias
- * that changes nothing is 13. */
-static void hints_put(Writer *writer, int mode, uint8_t texels[UASTC_TEXELS][4]) {
-    enum { NO_BIAS = 13 };
-    const bool few = mode >= 10 && mode <= 12;
-    const UastcEtc1 hint = uastc_etc1_find(texels);
-    writer->at += few ? 1 : 2;
-    bits_put(writer, hint.flip, 1);
-    bits_put(writer, hint.differential, 1);
-    for (int half = 0; half < 2; half++) bits_put(writer, hint.intensity[half], 3);
-    if (!few) bits_put(writer, NO_BIAS, 5);
-}
-
 static void solid_write(const uint8_t color[4], unsigned char block[UASTC_BYTES]) {
     const UastcEtc1Solid solid = uastc_etc1_solid(color);
     Writer writer = {.block = block, .at = 0};
@@ -312,13 +299,12 @@ static void solid_write(const uint8_t color[4], unsigned char block[UASTC_BYTES]
     for (int c = 0; c < 3; c++) bits_put(&writer, solid.base[c], 5);
 }
 
-static void coded_write(const Coded *coded, uint8_t texels[UASTC_TEXELS][4], unsigned char block[UASTC_BYTES]) {
+static void coded_write(const Coded *coded, unsigned char block[UASTC_BYTES]) {
     const UastcMode *mode = &uastc_modes[coded->mode];
     const int ends = 2 * mode->channels * mode->subsets;
     bool anchored[3] = {false};
     Writer writer = {.block = block, .at = 0};
     bits_put(&writer, mode->code, mode->code_bits);
-    hints_put(&writer, coded->mode, texels);
     writer.at = mode->start;
     bits_put(&writer, (unsigned)coded->selector, mode->selector_bits);
     bits_put(&writer, (unsigned)coded->pattern, mode->pattern_bits);
@@ -329,6 +315,22 @@ static void coded_write(const Coded *coded, uint8_t texels[UASTC_TEXELS][4], uns
         for (int p = 0; p < mode->planes; p++) bits_put(&writer, coded->weight[t][p], mode->weight_bits - !*anchor);
         *anchor = true;
     }
+}
+
+/* Writes the hints by what a block decodes to: for ETC1, behind those for BC1, which stay 0, and for alpha where the mode
+ * has it. Modes 10 to 12 have one hint for BC1 in place of two, and no bias; the bias that changes nothing is 13. */
+static void hints_write(int mode, unsigned char block[UASTC_BYTES]) {
+    enum { NO_BIAS = 13 };
+    const bool few = mode >= 10 && mode <= 12;
+    uint8_t texels[UASTC_TEXELS][4];
+    uastc_decode(block, texels);
+    const UastcEtc1 hint = uastc_etc1_find(texels);
+    Writer writer = {.block = block, .at = uastc_modes[mode].code_bits + (few ? 1 : 2)};
+    bits_put(&writer, hint.flip, 1);
+    bits_put(&writer, hint.differential, 1);
+    for (int half = 0; half < 2; half++) bits_put(&writer, hint.intensity[half], 3);
+    if (!few) bits_put(&writer, NO_BIAS, 5);
+    if (mode >= 9 && mode <= 17) bits_put(&writer, uastc_etc2_alpha(texels), 8);
 }
 
 void uastc_encode(const UastcEnds *ends, uint8_t texels[UASTC_TEXELS][4], unsigned char block[UASTC_BYTES]) {
@@ -351,5 +353,6 @@ void uastc_encode(const UastcEnds *ends, uint8_t texels[UASTC_TEXELS][4], unsign
             if (m == UASTC_SOLID || (uastc_modes[m].subsets > 1) != (many == 1) || !best.error) continue;
             if (channels == 2 ? grey : channels == 3 ? opaque : !opaque) mode_try(ends, &sources[channels], m, &best);
         }
-    coded_write(&best, texels, block);
+    coded_write(&best, block);
+    hints_write(best.mode, block);
 }

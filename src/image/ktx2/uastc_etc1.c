@@ -78,6 +78,53 @@ UastcEtc1 uastc_etc1_find(uint8_t texels[UASTC_TEXELS][4]) {
     return found;
 }
 
+/* The same, section 21.3, table 102: the modifiers of alpha. */
+static const int modifiers[16][8] = {
+    {-3, -6, -9, -15, 2, 5, 8, 14}, {-3, -7, -10, -13, 2, 6, 9, 12}, {-2, -5, -8, -13, 1, 4, 7, 12},
+    {-2, -4, -6, -13, 1, 3, 5, 12}, {-3, -6, -8, -12, 2, 5, 7, 11},  {-3, -7, -9, -11, 2, 6, 8, 10},
+    {-4, -7, -8, -11, 3, 6, 7, 10}, {-3, -5, -8, -11, 2, 4, 7, 10},  {-2, -6, -8, -10, 1, 5, 7, 9},
+    {-2, -5, -8, -10, 1, 4, 7, 9},  {-2, -4, -8, -10, 1, 3, 7, 9},   {-2, -5, -7, -10, 1, 4, 6, 9},
+    {-3, -4, -7, -10, 2, 3, 6, 9},  {-1, -2, -3, -10, 0, 1, 2, 9},   {-4, -6, -8, -9, 3, 5, 7, 8},
+    {-3, -5, -7, -9, 2, 4, 6, 8},
+};
+enum { LEAST_MODIFIER = 3, GREATEST_MODIFIER = 7 };
+
+/* Returns the squares of the errors of alpha with modifiers times a multiplier, around the base that puts the outermost
+ * of them at the least and the greatest alpha. */
+static int alpha_error(uint8_t texels[UASTC_TEXELS][4], int low, int high, const int row[8], int multiplier) {
+    const int range = row[GREATEST_MODIFIER] - row[LEAST_MODIFIER];
+    const int base = low + ((high - low) * -row[LEAST_MODIFIER] + range / 2) / range;
+    int sum = 0;
+    for (int t = 0; t < UASTC_TEXELS; t++) {
+        int best = INT_MAX;
+        for (int s = 0; s < 8; s++) {
+            const int d = clamped(base + row[s] * multiplier, 0, 255) - texels[t][3];
+            if (d * d < best) best = d * d;
+        }
+        sum += best;
+    }
+    return sum;
+}
+
+unsigned uastc_etc2_alpha(uint8_t texels[UASTC_TEXELS][4]) {
+    int low = 255, high = 0, best = INT_MAX;
+    unsigned found = 0;
+    for (int t = 0; t < UASTC_TEXELS; t++) {
+        low = texels[t][3] < low ? texels[t][3] : low;
+        high = texels[t][3] > high ? texels[t][3] : high;
+    }
+    for (int r = 0; r < 16; r++) {
+        const int fitting = (high - low) / (modifiers[r][GREATEST_MODIFIER] - modifiers[r][LEAST_MODIFIER]);
+        for (int multiplier = clamped(fitting, 1, 15); multiplier <= clamped(fitting + 1, 1, 15); multiplier++) {
+            const int error = alpha_error(texels, low, high, modifiers[r], multiplier);
+            if (error >= best) continue;
+            best = error;
+            found = (unsigned)(r | multiplier << 4);
+        }
+    }
+    return found;
+}
+
 UastcEtc1Solid uastc_etc1_solid(const uint8_t color[4]) {
     UastcEtc1Solid found = {0};
     int best = INT_MAX;

@@ -1,4 +1,5 @@
-/* uastc_etc1.h - what a block of UASTC tells a decoder that makes a block of ETC1 of it, where a GPU has nothing else */
+/* uastc_etc1.h - what a block of UASTC tells a decoder that makes a block of ETC1 or ETC2 of it, where a GPU has nothing
+ * else */
 #pragma once
 
 #include <stdint.h>
@@ -13,6 +14,10 @@ typedef struct UastcEtc1 {
 
 /* Returns the hint whose block of ETC1 is nearest to the texels. */
 UastcEtc1 uastc_etc1_find(uint8_t texels[UASTC_TEXELS][4]);
+
+/* Returns the hint for the alpha of a block of ETC2: the number of a row of modifiers, and above it, from bit 4, the
+ * multiplier, for the values between the least and the greatest alpha. */
+unsigned uastc_etc2_alpha(uint8_t texels[UASTC_TEXELS][4]);
 
 /* A block of one colour in ETC1: its base of 5 bits, or 4, and the intensity and selector of all its texels. */
 typedef struct UastcEtc1Solid {

@@ -132,14 +132,12 @@ static WeftResult read_face(const char *path, int side, WeftImage *out, const We
     return result;
 }
 
-/* Reads the faces of six files. */
-static WeftResult read_files(const char *path, WeftImage faces[FACES], const WeftLog *log, WeftError *error) {
-    Faces *names = alloc_array(1, sizeof *names);
-    if (!names) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+/* Reads the faces of six files, whose names are found. */
+static WeftResult read_files(const char *path, Faces *names, WeftImage faces[FACES], const WeftLog *log,
+                             WeftError *error) {
     WeftResult result = find_faces(path, names, error);
     for (int k = 0; k < FACES && result == WEFT_OK; k++)
         result = read_face(names->paths[k], k ? faces[0].width : 0, &faces[k], log, error);
-    free(names);
     return result;
 }
 
@@ -209,14 +207,18 @@ static void resample(const WeftImage faces[FACES], WeftImage *out) {
 }
 
 WeftResult cubemap_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error) {
+    Faces *names = alloc_array(1, sizeof *names);
     WeftImage faces[FACES] = {{0}};
     *out = (WeftImage){0};
-    WeftResult result = is_ktx2_cube(path) ? read_ktx2(path, faces, log, error) : read_files(path, faces, log, error);
+    if (!names) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    WeftResult result =
+        is_ktx2_cube(path) ? read_ktx2(path, faces, log, error) : read_files(path, names, faces, log, error);
     if (result == WEFT_OK) {
         int width = faces[0].width < CUBEMAP_WIDTH / 4 ? 4 * faces[0].width : CUBEMAP_WIDTH;
         result = weft_image_create(width, width / 2, 3, WEFT_PIXEL_F32, out, error);
     }
     if (result == WEFT_OK) resample(faces, out);
     for (int k = 0; k < FACES; k++) weft_image_free(&faces[k]);
+    free(names);
     return result;
 }
