@@ -78,7 +78,7 @@ static void refuses(const char *from, const char *to, int code, const char *said
     ran_free(&ran);
 }
 
-static void what_cannot_be_converted_is_one_line(void **state) {
+static void pictures_that_cannot_be_converted_are_refused(void **state) {
     (void)state;
     picture_make("steps.png");
     refuses("none.png", "out.ktx2", 3, "none.png: cannot be opened");
@@ -95,7 +95,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(texture_becomes_ktx2_and_returns),
         cmocka_unit_test(light_is_decoded_and_data_are_not),
-        cmocka_unit_test(what_cannot_be_converted_is_one_line),
+        cmocka_unit_test(pictures_that_cannot_be_converted_are_refused),
     };
     return cmocka_run_group_tests_name("convert", tests, work_begin, work_end);
 }

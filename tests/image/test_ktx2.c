@@ -401,7 +401,7 @@ static Bytes changed(const Bytes *bytes, size_t at, uint64_t number, int size) {
     return other;
 }
 
-static void what_is_not_read_is_named(void **state) {
+static void unread_formats_are_named(void **state) {
     (void)state;
     Bytes level = {.size = 0};
     for (int k = 0; k < 64; k++) put_byte(&level, k);
@@ -603,7 +603,7 @@ int main(void) {
         cmocka_unit_test(uastc_of_fewer_channels_and_sides_is_cut),
         cmocka_unit_test(etc1s_is_decoded),
         cmocka_unit_test(damaged_byte_is_read_or_refused),
-        cmocka_unit_test(what_is_not_read_is_named),
+        cmocka_unit_test(unread_formats_are_named),
         cmocka_unit_test(zstandard_that_lies_is_refused),
         cmocka_unit_test(written_picture_is_near),
         cmocka_unit_test(written_levels_are_means_or_given),

@@ -244,7 +244,7 @@ static void block_fill(const Endpoint *endpoint, const uint8_t selector[4], bool
         }
 }
 
-/* What a slice becomes: the references of each block. */
+/* A slice becomes the references of each block to both code books. */
 typedef struct Reference {
     uint16_t endpoint, selector;
 } Reference;

@@ -36,7 +36,7 @@ static const struct {
     {122, 3, KTX2_B10G11R11, false, true}, {123, 3, KTX2_E5B9G9R9, false, true},
 };
 
-/* What the channels of blocks stand for: the numbers of the first sample in the descriptor and of the second, 0 where
+/* Tells what the channels of blocks stand for: the numbers of the first sample in the descriptor and of the second, 0 where
  * there is none, and where the channels of a picture are. */
 static const struct {
     int model, first, second, channels, from[4];

@@ -9,7 +9,7 @@
 
 #include "image/codec.h"
 
-/* How the texels of a file are coded. */
+/* The texels of a file are coded in one of these ways. */
 typedef enum Ktx2Coding {
     KTX2_BYTES,   /* 8 bits a channel */
     KTX2_WORDS,   /* 16 bits a channel */
@@ -21,7 +21,7 @@ typedef enum Ktx2Coding {
     KTX2_ETC1S
 } Ktx2Coding;
 
-/* What a channel of a picture is read from: a channel that is decoded, or nothing. */
+/* A channel of a picture is read from a channel that is decoded, or from nothing. */
 enum { KTX2_NOTHING = -1 };
 
 typedef struct Ktx2 {

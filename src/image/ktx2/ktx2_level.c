@@ -27,7 +27,7 @@ static WeftResult unpack(const Ktx2 *file, const unsigned char *data, size_t siz
         if (ZSTD_isError(left))
             result = fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, name, "KTX 2: Zstandard: %s", ZSTD_getErrorName(left));
         else if (in.pos + to.pos == before)
-            left = 0; /* it wants more than there is */
+            left = 0; /* the frame wants more than there is */
     }
     ZSTD_freeDStream(stream);
     if (result == WEFT_OK && to.pos < wanted)

@@ -21,21 +21,21 @@ static const char keys[] = "\x12\0\0\0KTXorientation\0rd\0\0\0\x0f\0\0\0KTXwrite
 enum { KEYS = sizeof keys };
 
 /* A level while it is made. */
-typedef struct Level {
+typedef struct MipLevel {
     int width, height;
     uint8_t *texels; /* of four channels */
     unsigned char *packed;
     size_t size, unpacked;
-} Level;
+} MipLevel;
 
 typedef struct Ktx2Job {
     const char *name;
     UastcEnds *ends;
-    Level levels[LEVELS_MOST];
+    MipLevel levels[LEVELS_MOST];
     int level_count;
     bool alpha, data;
     /* of the level at hand */
-    const Level *level;
+    const MipLevel *level;
     unsigned char *blocks;
 } Ktx2Job;
 
@@ -57,7 +57,7 @@ static uint8_t *texels_of(const WeftImage *image) {
 static void row_encode(void *user, int row, int thread) {
     (void)thread;
     const Ktx2Job *job = user;
-    const Level *level = job->level;
+    const MipLevel *level = job->level;
     const int columns = (level->width + 3) / 4;
     for (int column = 0; column < columns; column++) {
         uint8_t texels[UASTC_TEXELS][4];
@@ -71,7 +71,7 @@ static void row_encode(void *user, int row, int thread) {
     }
 }
 
-static WeftResult level_pack(Ktx2Job *job, Level *level, WeftError *error) {
+static WeftResult level_pack(Ktx2Job *job, MipLevel *level, WeftError *error) {
     const int rows = (level->height + 3) / 4;
     level->unpacked = (size_t)((level->width + 3) / 4) * (size_t)rows * UASTC_BYTES;
     const size_t room = ZSTD_compressBound(level->unpacked);
@@ -99,7 +99,7 @@ static WeftResult levels_take(Ktx2Job *job, const WeftImage *image, const WeftIm
         if (k == LEVELS_MOST || from->width != width || from->height != height || from->type == WEFT_PIXEL_F32)
             return fail(error, WEFT_MESSAGE_DESC, job->name,
                         "level %d is not half of the one before, of bytes or words", k);
-        job->levels[k] = (Level){.width = width, .height = height, .texels = texels_of(from)};
+        job->levels[k] = (MipLevel){.width = width, .height = height, .texels = texels_of(from)};
         job->level_count = k + 1;
         if (!job->levels[k].texels) return fail(error, WEFT_MESSAGE_MEMORY, job->name, NULL);
     }
@@ -109,10 +109,10 @@ static WeftResult levels_take(Ktx2Job *job, const WeftImage *image, const WeftIm
 /* Adds levels down to a single texel, each the mean of the one before. */
 static WeftResult levels_add(Ktx2Job *job, WeftError *error) {
     for (; job->level_count < LEVELS_MOST; job->level_count++) {
-        const Level *last = &job->levels[job->level_count - 1];
+        const MipLevel *last = &job->levels[job->level_count - 1];
         if (last->width == 1 && last->height == 1) break;
-        Level *next = &job->levels[job->level_count];
-        *next = (Level){.width = halved(last->width), .height = halved(last->height)};
+        MipLevel *next = &job->levels[job->level_count];
+        *next = (MipLevel){.width = halved(last->width), .height = halved(last->height)};
         next->texels = alloc_array((size_t)next->width * (size_t)next->height, 4);
         if (!next->texels) return fail(error, WEFT_MESSAGE_MEMORY, job->name, NULL);
         halve_u8(last->texels, last->width, last->height, !job->data, next->texels);

@@ -46,22 +46,22 @@ int uastc_subset(int mode, int pattern, int texel) {
 }
 
 /* Returns an endpoint whose digit counts for factor, and whose bits but the lowest are spread over 9 bits; the lowest
- * turns the result over. */
-static unsigned endpoint_turned(unsigned digit, unsigned factor, unsigned spread, unsigned bits) {
-    const unsigned turn = bits & 1 ? 0x1ff : 0;
-    return (turn & 0x80) | ((digit * factor + spread) ^ turn) >> 2;
+ * inverts the result. */
+static unsigned endpoint_spread(unsigned digit, unsigned factor, unsigned spread, unsigned bits) {
+    const unsigned inverse = bits & 1 ? 0x1ff : 0;
+    return (inverse & 0x80) | ((digit * factor + spread) ^ inverse) >> 2;
 }
 
 unsigned uastc_endpoint(const UastcMode *mode, unsigned digit, unsigned bits) {
     const unsigned high = bits >> 1;
     if (mode->digit == UASTC_TRITS) switch (mode->endpoint_bits) {
-        case 2: return endpoint_turned(digit, 93, high * 0x116, bits);
-        case 4: return endpoint_turned(digit, 22, high << 6 | high, bits);
-        default: return endpoint_turned(digit, 5, high << 4 | high >> 4, bits);
+        case 2: return endpoint_spread(digit, 93, high * 0x116, bits);
+        case 4: return endpoint_spread(digit, 22, high << 6 | high, bits);
+        default: return endpoint_spread(digit, 5, high << 4 | high >> 4, bits);
         }
     if (mode->digit == UASTC_QUINTS)
-        return mode->endpoint_bits == 3 ? endpoint_turned(digit, 26, high << 7 | high << 1 | high >> 1, bits)
-                                        : endpoint_turned(digit, 6, high << 5 | high >> 3, bits);
+        return mode->endpoint_bits == 3 ? endpoint_spread(digit, 26, high << 7 | high << 1 | high >> 1, bits)
+                                        : endpoint_spread(digit, 6, high << 5 | high >> 3, bits);
     return mode->endpoint_bits == 8   ? bits
            : mode->endpoint_bits == 5 ? bits << 3 | bits >> 2
                                       : bits << 4 | bits; /* of 4 bits */

@@ -9,7 +9,7 @@
 
 enum { UASTC_BYTES = 16, UASTC_MODES = 19, UASTC_SOLID = 8, UASTC_TEXELS = 16, UASTC_ENDPOINTS = 18 };
 
-/* What an end of a line of colours has beside its bits: a digit to base 3 or to base 5. */
+/* An end of a line of colours has bits, and may have a digit to base 3 or to base 5 beside them. */
 typedef enum UastcDigit { UASTC_BITS, UASTC_TRITS, UASTC_QUINTS } UastcDigit;
 
 /* The numbers of a block of one mode, in the order of their bits: the mode, hints for other formats, which channel has

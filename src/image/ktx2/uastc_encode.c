@@ -10,11 +10,11 @@
 enum { AXIS_STEPS = 6, REFINEMENTS = 3, PATTERNS_TRIED = 3, WEIGHTS_MOST = 32, GOOD_ENOUGH = 8 };
 
 /* A block in the channels of a mode: luminance and alpha, or colours, or colours and alpha. */
-typedef struct Source {
+typedef struct ChannelValues {
     float value[UASTC_TEXELS][4];
     int channels;
     int count[4]; /* of colours that a channel stands for: luminance is three */
-} Source;
+} ChannelValues;
 
 /* A block as one mode has it. */
 typedef struct Coded {
@@ -47,7 +47,7 @@ void uastc_ends_make(UastcEnds *out) {
         }
 }
 
-static void mean_of(const Source *source, const Group *group, float mean[4]) {
+static void mean_of(const ChannelValues *source, const Group *group, float mean[4]) {
     for (int c = 0; c < 4; c++) mean[c] = 0.0f;
     for (int k = 0; k < group->texel_count; k++)
         for (int c = 0; c < group->channel_count; c++)
@@ -55,7 +55,7 @@ static void mean_of(const Source *source, const Group *group, float mean[4]) {
 }
 
 /* Finds the axis along which the colours of a group lie, of length 1. Returns the squares of the distances from it. */
-static float axis_of(const Source *source, const Group *group, const float mean[4], float axis[4]) {
+static float axis_of(const ChannelValues *source, const Group *group, const float mean[4], float axis[4]) {
     float spread[4][4] = {{0.0f}}, trace = 0.0f, along = 0.0f;
     const int n = group->channel_count;
     for (int k = 0; k < group->texel_count; k++) {
@@ -86,7 +86,7 @@ static float axis_of(const Source *source, const Group *group, const float mean[
 }
 
 /* Takes the outermost places of the colours on their axis as the two ends. */
-static void ends_guess(const Source *source, const Group *group, float ends[2][4]) {
+static void ends_guess(const ChannelValues *source, const Group *group, float ends[2][4]) {
     float mean[4], axis[4], low = 0.0f, high = 0.0f;
     mean_of(source, group, mean);
     axis_of(source, group, mean, axis);
@@ -104,8 +104,8 @@ static void ends_guess(const Source *source, const Group *group, float ends[2][4
 }
 
 /* Finds the ends whose line is nearest to the colours, given their places on it. Leaves them where all have one place. */
-static void ends_refine(const Source *source, const Group *group, int weight_bits, const uint8_t weights[UASTC_TEXELS],
-                        float ends[2][4]) {
+static void ends_refine(const ChannelValues *source, const Group *group, int weight_bits,
+                        const uint8_t weights[UASTC_TEXELS], float ends[2][4]) {
     float aa = 0.0f, ab = 0.0f, bb = 0.0f, a[4] = {0.0f}, b[4] = {0.0f};
     for (int k = 0; k < group->texel_count; k++) {
         const float high = (float)uastc_weight(weight_bits, weights[group->texels[k]]) / 64.0f, low = 1.0f - high;
@@ -128,12 +128,13 @@ static void ends_refine(const Source *source, const Group *group, int weight_bit
 static int byte_near(float value) { return value < 0.0f ? 0 : value > 255.0f ? 255 : (int)(value + 0.5f); }
 
 /* The values on a line between two ends that a mode has. */
-typedef struct Palette {
+typedef struct LineValues {
     float value[WEIGHTS_MOST][4];
     int count;
-} Palette;
+} LineValues;
 
-static void palette_fill(const UastcEnds *table, int mode, const Group *group, const float ends[2][4], Palette *out) {
+static void palette_fill(const UastcEnds *table, int mode, const Group *group, const float ends[2][4],
+                         LineValues *out) {
     const int bits = uastc_modes[mode].weight_bits;
     out->count = 1 << bits;
     for (int w = 0; w < out->count; w++)
@@ -144,7 +145,7 @@ static void palette_fill(const UastcEnds *table, int mode, const Group *group, c
 }
 
 /* Gives each texel of a group the nearest value. Returns the squares of the distances. */
-static unsigned weights_choose(const Source *source, const Group *group, const Palette *palette,
+static unsigned weights_choose(const ChannelValues *source, const Group *group, const LineValues *palette,
                                uint8_t weights[UASTC_TEXELS]) {
     float sum = 0.0f;
     for (int k = 0; k < group->texel_count; k++) {
@@ -166,32 +167,32 @@ static unsigned weights_choose(const Source *source, const Group *group, const P
 }
 
 /* Puts the ends and weights of a group into a block. The anchor, a group's first texel, has a weight whose highest bit is
- * 0: otherwise the line is turned around. */
+ * 0: otherwise the line is reversed. */
 static void group_put(const UastcEnds *table, const Group *group, int subset, int plane, float ends[2][4],
                       const uint8_t weights[UASTC_TEXELS], Coded *out) {
     const UastcMode *mode = &uastc_modes[out->mode];
     const int most = (1 << mode->weight_bits) - 1;
-    const bool turned = weights[group->texels[0]] > most / 2;
+    const bool reversed = weights[group->texels[0]] > most / 2;
     for (int k = 0; k < group->texel_count; k++) {
         const uint8_t weight = weights[group->texels[k]];
-        out->weight[group->texels[k]][plane] = (uint8_t)(turned ? most - weight : weight);
+        out->weight[group->texels[k]][plane] = (uint8_t)(reversed ? most - weight : weight);
     }
     for (int c = 0; c < group->channel_count; c++)
         for (int e = 0; e < 2; e++) {
-            const int at = 2 * (mode->channels * subset + group->channels[c]) + (turned ? 1 - e : e);
+            const int at = 2 * (mode->channels * subset + group->channels[c]) + (reversed ? 1 - e : e);
             out->digit[at] = table->digit[out->mode][byte_near(ends[e][c])];
             out->bits[at] = table->bits[out->mode][byte_near(ends[e][c])];
         }
 }
 
 /* Fits the line of a group. Returns the squares of its errors. */
-static unsigned group_fit(const UastcEnds *table, const Source *source, const Group *group, int subset, int plane,
-                          Coded *out) {
+static unsigned group_fit(const UastcEnds *table, const ChannelValues *source, const Group *group, int subset,
+                          int plane, Coded *out) {
     float ends[2][4];
     unsigned best = UINT_MAX;
     ends_guess(source, group, ends);
     for (int round = 0; round <= REFINEMENTS && best; round++) {
-        Palette palette;
+        LineValues palette;
         uint8_t weights[UASTC_TEXELS];
         palette_fill(table, out->mode, group, (const float(*)[4])ends, &palette);
         const unsigned error = weights_choose(source, group, &palette, weights);
@@ -214,7 +215,8 @@ static Group group_of(int mode, int pattern, int subset, int plane, int selector
 }
 
 /* Keeps a block of this mode, pattern and channel of the second plane, or -1, if it is better than what there is. */
-static void block_try(const UastcEnds *table, const Source *source, int mode, int pattern, int selector, Coded *best) {
+static void block_try(const UastcEnds *table, const ChannelValues *source, int mode, int pattern, int selector,
+                      Coded *best) {
     Coded coded = {.mode = mode, .pattern = pattern, .selector = selector, .error = 0};
     for (int s = 0; s < uastc_modes[mode].subsets && coded.error < best->error; s++)
         for (int p = 0; p < uastc_modes[mode].planes; p++) {
@@ -225,7 +227,7 @@ static void block_try(const UastcEnds *table, const Source *source, int mode, in
 }
 
 /* Tries the patterns whose subsets lie nearest to lines. */
-static void patterns_try(const UastcEnds *table, const Source *source, int mode, Coded *best) {
+static void patterns_try(const UastcEnds *table, const ChannelValues *source, int mode, Coded *best) {
     float distance[PATTERNS_TRIED + 1];
     int nearest[PATTERNS_TRIED + 1], count = 0;
     for (int pattern = 0; pattern < uastc_patterns(mode); pattern++) {
@@ -246,7 +248,7 @@ static void patterns_try(const UastcEnds *table, const Source *source, int mode,
     for (int k = 0; k < count; k++) block_try(table, source, mode, nearest[k], -1, best);
 }
 
-static void mode_try(const UastcEnds *table, const Source *source, int mode, Coded *best) {
+static void mode_try(const UastcEnds *table, const ChannelValues *source, int mode, Coded *best) {
     const UastcMode *m = &uastc_modes[mode];
     if (m->subsets > 1) {
         if (best->error > GOOD_ENOUGH) patterns_try(table, source, mode, best);
@@ -259,25 +261,25 @@ static void mode_try(const UastcEnds *table, const Source *source, int mode, Cod
 }
 
 /* Takes the channels of a mode from the texels. */
-static Source source_of(uint8_t texels[UASTC_TEXELS][4], int channels) {
-    Source source = {.channels = channels, .count = {channels == 2 ? 3 : 1, 1, 1, 1}};
+static ChannelValues source_of(uint8_t texels[UASTC_TEXELS][4], int channels) {
+    ChannelValues source = {.channels = channels, .count = {channels == 2 ? 3 : 1, 1, 1, 1}};
     for (int t = 0; t < UASTC_TEXELS; t++)
         for (int c = 0; c < channels; c++) source.value[t][c] = (float)texels[t][channels == 2 && c ? 3 : c];
     return source;
 }
 
 /* Bits to write, the first in the lowest place. */
-typedef struct Writer {
+typedef struct BitWriter {
     unsigned char *block;
     int at;
-} Writer;
+} BitWriter;
 
-static void bits_put(Writer *writer, unsigned value, int count) {
+static void bits_put(BitWriter *writer, unsigned value, int count) {
     for (int k = 0; k < count; k++, writer->at++)
         writer->block[writer->at / 8] |= (unsigned char)((value >> k & 1) << writer->at % 8);
 }
 
-static void digits_put(Writer *writer, UastcDigit digit, const uint8_t *digits, int count) {
+static void digits_put(BitWriter *writer, UastcDigit digit, const uint8_t *digits, int count) {
     const int group = digit == UASTC_TRITS ? 5 : 3;
     const unsigned base = digit == UASTC_TRITS ? 3 : 5;
     for (int first = 0; first < count; first += group) {
@@ -290,7 +292,7 @@ static void digits_put(Writer *writer, UastcDigit digit, const uint8_t *digits, 
 
 static void solid_write(const uint8_t color[4], unsigned char block[UASTC_BYTES]) {
     const UastcEtc1Solid solid = uastc_etc1_solid(color);
-    Writer writer = {.block = block, .at = 0};
+    BitWriter writer = {.block = block, .at = 0};
     bits_put(&writer, uastc_modes[UASTC_SOLID].code, uastc_modes[UASTC_SOLID].start);
     for (int c = 0; c < 4; c++) bits_put(&writer, color[c], 8);
     bits_put(&writer, solid.differential, 1);
@@ -303,7 +305,7 @@ static void coded_write(const Coded *coded, unsigned char block[UASTC_BYTES]) {
     const UastcMode *mode = &uastc_modes[coded->mode];
     const int ends = 2 * mode->channels * mode->subsets;
     bool anchored[3] = {false};
-    Writer writer = {.block = block, .at = 0};
+    BitWriter writer = {.block = block, .at = 0};
     bits_put(&writer, mode->code, mode->code_bits);
     writer.at = mode->start;
     bits_put(&writer, (unsigned)coded->selector, mode->selector_bits);
@@ -325,7 +327,7 @@ static void hints_write(int mode, unsigned char block[UASTC_BYTES]) {
     uint8_t texels[UASTC_TEXELS][4];
     uastc_decode(block, texels);
     const UastcEtc1 hint = uastc_etc1_find(texels);
-    Writer writer = {.block = block, .at = uastc_modes[mode].code_bits + (few ? 1 : 2)};
+    BitWriter writer = {.block = block, .at = uastc_modes[mode].code_bits + (few ? 1 : 2)};
     bits_put(&writer, hint.flip, 1);
     bits_put(&writer, hint.differential, 1);
     for (int half = 0; half < 2; half++) bits_put(&writer, hint.intensity[half], 3);
@@ -345,7 +347,8 @@ void uastc_encode(const UastcEnds *ends, uint8_t texels[UASTC_TEXELS][4], unsign
         solid_write(texels[0], block);
         return;
     }
-    const Source sources[5] = {[2] = source_of(texels, 2), [3] = source_of(texels, 3), [4] = source_of(texels, 4)};
+    const ChannelValues sources[5] = {
+        [2] = source_of(texels, 2), [3] = source_of(texels, 3), [4] = source_of(texels, 4)};
     Coded best = {.error = UINT_MAX};
     for (int many = 0; many < 2; many++) /* modes of one subset first, which may leave nothing to gain */
         for (int m = 0; m < UASTC_MODES; m++) {

@@ -3,7 +3,7 @@
 #include <limits.h>
 #include <stdlib.h>
 
-/* Khronos, "Data Format Specification", version 1.3.1, 2020, table 96: the steps of a row of intensities, from selector 0. */
+/* Khronos, "Data Format Specification", version 1.3.1, 2020, table 96, has the steps of a row of intensities, from selector 0. */
 static const int steps[8][4] = {{-8, -2, 2, 8},     {-17, -5, 5, 17},   {-29, -9, 9, 29},     {-42, -13, 13, 42},
                                 {-60, -18, 18, 60}, {-80, -24, 24, 80}, {-106, -33, 33, 106}, {-183, -47, 47, 183}};
 
@@ -78,7 +78,7 @@ UastcEtc1 uastc_etc1_find(uint8_t texels[UASTC_TEXELS][4]) {
     return found;
 }
 
-/* The same, section 21.3, table 102: the modifiers of alpha. */
+/* The modifiers of alpha are in the same text, section 21.3, table 102. */
 static const int modifiers[16][8] = {
     {-3, -6, -9, -15, 2, 5, 8, 14}, {-3, -7, -10, -13, 2, 6, 9, 12}, {-2, -5, -8, -13, 1, 4, 7, 12},
     {-2, -4, -6, -13, 1, 3, 5, 12}, {-3, -6, -8, -12, 2, 5, 7, 11},  {-3, -7, -9, -11, 2, 6, 8, 10},

@@ -1,12 +1,11 @@
-/* uastc_etc1.h - what a block of UASTC tells a decoder that makes a block of ETC1 or ETC2 of it, where a GPU has nothing
- * else */
+/* uastc_etc1.h - hints of a block of UASTC for who makes a block of ETC1 or ETC2 of it, where a GPU has nothing else */
 #pragma once
 
 #include <stdint.h>
 
 #include "image/ktx2/uastc.h"
 
-/* How the texels are cut in two, how the base colours are kept, and the row of intensities of either half. */
+/* Tells how the texels are cut in two, how the base colours are kept, and the row of intensities of either half. */
 typedef struct UastcEtc1 {
     unsigned flip, differential; /* 1: an upper and a lower half; 1: 5 bits and a difference, 0: 4 bits each */
     unsigned intensity[2];
