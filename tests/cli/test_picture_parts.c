@@ -277,7 +277,7 @@ static void options_that_need_the_whole_picture_are_refused(void **state) {
     } refused[] = {{"--noise=0.1", "--chunk: not with --noise"},
                    {"--time-limit=1", "--chunk: not with --time-limit"},
                    {"--denoise", "--chunk: not with --denoise"},
-                   {"--turntable=3", "--chunk: not with --turntable"},
+                   {"--turntable=1", "--chunk: a turntable of 1 pictures has at most 1 parts"},
                    {"--engine=raster", "--chunk: needs one picture of --engine trace"},
                    {"--aov=albedo,object", "--chunk: not with --aov object or material"},
                    {"--height=16", "--chunk: a picture of 16 rows of pixels has at most 1 parts"},

@@ -35,6 +35,14 @@ char *command_text(const Options *options) {
     return text;
 }
 
+char *command_word(const char *word) {
+    char *text = malloc(4 + 4 * strlen(word));
+    if (!text) return NULL;
+    *argument_write(text, word) = '\0';
+    memmove(text, text + 1, strlen(text)); /* the blank before it */
+    return text;
+}
+
 char *command_assign_text(const Options *options) {
     static const char *const names[] = {
         "--time",    "--animation", "--variant", "--preset", "--material", "--materials", "--weave",   "--workflow",

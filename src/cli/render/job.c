@@ -51,8 +51,7 @@ static WeftResult gather(Job *job, WeftRender *render, const WeftRenderDesc *des
                                                                                        : result;
 }
 
-/* Returns the camera to use: a built-in scene has one that shows it best. */
-static const char *camera_of(const Job *job, const char *camera) {
+const char *job_camera(const Job *job, const char *camera) {
     if (!camera) camera = job->request->desc.camera;
     bool builtin = path_is_built_in(job->request->scene_options.scene);
     return !camera && builtin && weft_scene_info(job->scene).camera_count > 0 ? "0" : camera;
@@ -231,7 +230,7 @@ static void free_images(Job *job) {
 WeftResult job_draw(Job *job, const char *camera, WeftError *error) {
     free_images(job);
     job->noise = -1.0;
-    camera = camera_of(job, camera);
+    camera = job_camera(job, camera);
     WeftResult result = job->engine == ENGINE_RASTER ? raster(job, camera, error) : trace(job, camera, error);
     return result == WEFT_OK && !job->request->chunk_count && !crew_follows() ? job_finish(job, error) : result;
 }

@@ -52,6 +52,10 @@ WeftResult job_finish(Job *job, WeftError *error);
 /* Writes the picture; number as for request_outputs_write. */
 WeftResult job_write(const Job *job, const char *number, WeftError *error);
 
+/* Returns the camera to use where `camera` (NULL: the request's) is asked for: a built-in scene has one that shows it
+ * best. */
+const char *job_camera(const Job *job, const char *camera);
+
 /* Makes the picture through a camera, NULL: the request's. Needs job_open. An interruption is noted; only one
  * before the first sample is a failure. */
 WeftResult job_draw(Job *job, const char *camera, WeftError *error);

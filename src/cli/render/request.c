@@ -38,7 +38,7 @@ const Option request_options[] = {
     OPTION_TEXT(
         "--chunk", "I/N", NULL,
         "path trace part I of N of the picture, counted from 1, to an .exr; `weft merge` joins the parts to the "
-        "bytes of one run"),
+        "bytes of one run. Of a turntable, its I-th picture and every N-th after it"),
     OPTION_LIST("--from", "PART",
                 "begin with the samples of a part of the same picture with a smaller --spp, a multiple of 16, and "
                 "render only those that it lacks"),
@@ -242,20 +242,23 @@ static bool read_extras(const Options *options, Request *request) {
     return true;
 }
 
-/* Reads the part of the picture, and refuses what cannot be done in parts. */
-static bool read_chunk(const Options *options, Request *request) {
-    static const char *const whole[] = {"--noise",    "--time-limit", "--denoise",
-                                        "--denoiser", "--turntable",  "--stages"};
-    const char *text = option_text(options, "--chunk");
-    int index = 0, count = 0, end = 0;
-    if (!text) return true;
-    if (sscanf(text, "%5d/%5d%n", &index, &count, &end) != 2 || text[end] || index < 1 || count < 1 || index > count ||
-        count > CHUNKS_MOST) {
-        report(WEFT_USAGE, "--chunk: \"%.40s\" is not I/N, part I of N parts, 1 to %d", text, CHUNKS_MOST);
-        return false;
-    }
+/* Takes part of the pictures of a turntable, which are whole. */
+static bool read_frames(Request *request, int index, int count) {
+    const bool metered = request->scene_options.meter_exposure || request->scene_options.find_white;
+    if (metered) report(WEFT_USAGE, "--chunk: the pictures of a turntable are metered by the first; give numbers");
+    if (count > request->turntable)
+        report(WEFT_USAGE, "--chunk: a turntable of %d pictures has at most %d parts", request->turntable,
+               request->turntable);
+    request->frame_index = index;
+    request->frame_count = count;
+    return !metered && count <= request->turntable;
+}
+
+bool request_cut(Request *request, int index, int count) {
+    static const char *const whole[] = {"--noise", "--time-limit", "--denoise", "--denoiser", "--stages"};
+    if (request->turntable) return read_frames(request, index, count);
     for (size_t k = 0; k < sizeof whole / sizeof *whole; k++)
-        if (option_given(options, whole[k])) {
+        if (option_given(request->options, whole[k])) {
             report(WEFT_USAGE, "--chunk: not with %s, which needs the whole picture", whole[k]);
             return false;
         }
@@ -272,9 +275,22 @@ static bool read_chunk(const Options *options, Request *request) {
         report(WEFT_USAGE, "--chunk: needs one picture of --engine trace");
         return false;
     }
-    request->chunk_index = index - 1;
+    request->chunk_index = index;
     request->chunk_count = count;
     return true;
+}
+
+/* Reads the part of the picture. */
+static bool read_chunk(const Options *options, Request *request) {
+    const char *text = option_text(options, "--chunk");
+    int index = 0, count = 0, end = 0;
+    if (!text) return true;
+    if (sscanf(text, "%5d/%5d%n", &index, &count, &end) != 2 || text[end] || index < 1 || count < 1 || index > count ||
+        count > CHUNKS_MOST) {
+        report(WEFT_USAGE, "--chunk: \"%.40s\" is not I/N, part I of N parts, 1 to %d", text, CHUNKS_MOST);
+        return false;
+    }
+    return request_cut(request, index - 1, count);
 }
 
 /* Reads what to go on from. */

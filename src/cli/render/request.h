@@ -31,6 +31,7 @@ typedef struct Request {
     WeftPart part;
     int turntable;                /* pictures around the scene; 0: one */
     int chunk_index, chunk_count; /* part of the picture, counted from 0, and parts; count 0: the whole picture */
+    int frame_index, frame_count; /* of a turntable: every frame_count-th picture from frame_index on; count 0: all */
     const char *checkpoint;       /* file; NULL: none */
     double checkpoint_every;      /* s */
 } Request;
@@ -40,6 +41,10 @@ int request_count(const Request *request);
 
 /* Reads and checks all that can be judged without the scene. False after one line on standard error. */
 bool request_read(const Options *options, Request *request);
+
+/* Makes the request that of part `index` of `count`, from 0 on. False after one line on standard error where the picture
+ * cannot be cut so. */
+bool request_cut(Request *request, int index, int count);
 
 /* Tests before a long render that every -o names a supported format and a place that can be written, by creating
  * a file there. Returns 0, or an exit code after one line. */

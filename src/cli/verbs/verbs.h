@@ -13,6 +13,7 @@
 #define VERBS(V)                                                                                                       \
     V(render)                                                                                                          \
     V(merge)                                                                                                           \
+    V(farm)                                                                                                            \
     VERB_VIEW(V)                                                                                                       \
     V(models)                                                                                                          \
     V(eval)                                                                                                            \
