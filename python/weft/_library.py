@@ -188,10 +188,18 @@ def call(name: str, *arguments: Any) -> None:
         raise_error(error)
 
 
-def logged(name: str, *arguments: Any) -> None:
-    """Makes a call whose last parameters are a WeftLog and a WeftError; its warnings become Python's."""
-    with Log() as log:
-        call(name, *arguments, log.pointer)
+def logged(name: str, *arguments: Any, undo: Optional[Callable[[], Any]] = None) -> None:
+    """Makes a call whose last parameters are a WeftLog and a WeftError; its warnings become Python's. undo frees what the
+    call made, where a warning is an exception (`python -W error`)."""
+    made = False
+    try:
+        with Log() as log:
+            call(name, *arguments, log.pointer)
+            made = True
+    except BaseException:
+        if made and undo:
+            undo()
+        raise
 
 
 class Log:
@@ -347,11 +355,14 @@ class Handle:
         raise TypeError(f"a {self._noun} cannot be copied or pickled")
 
 
-def created(name: str, *arguments: Any, log: bool = False, after: tuple[Any, ...] = ()) -> Any:
-    """Makes a call that fills a handle, which stands before `after` and the WeftError, or before a WeftLog and the
-    WeftError; returns the handle."""
+def created(name: str, *arguments: Any, free: str = "", after: tuple[Any, ...] = ()) -> Any:
+    """Makes a call that fills a handle, which stands before `after` and the WeftError; returns the handle. free, the call
+    that frees it, is named where there is a WeftLog before the WeftError."""
     out = ctypes.c_void_p()
-    (logged if log else call)(name, *arguments, ctypes.byref(out), *after)
+    if free:
+        logged(name, *arguments, ctypes.byref(out), *after, undo=lambda: getattr(lib, free)(out))
+    else:
+        call(name, *arguments, ctypes.byref(out), *after)
     return out.value
 
 

@@ -31,7 +31,7 @@ class Doctor(Handle):
                 )
             else:
                 pointer = created("weft_doctor_open_watched", self._source, self._watch.callback, None, after=(None,))
-        super().__init__(pointer)
+            super().__init__(pointer)
 
     @property
     def findings(self) -> list[Finding]:

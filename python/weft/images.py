@@ -41,10 +41,13 @@ def given(value: Any, name: str) -> tuple[Any, Any]:
 def read_image(file: Union[PathLike, bytes], *, name: str = "image") -> Array:
     """Reads a PNG, JPEG, TGA, HDR, EXR, DDS, TIFF or NPY, of a path or of bytes (errors then begin with name)."""
     image = _abi.WeftImage()
+    out = ctypes.byref(image)
     if isinstance(file, bytes):
-        logged("weft_image_read_memory", file, len(file), text(name, "name"), ctypes.byref(image))
+        logged(
+            "weft_image_read_memory", file, len(file), text(name, "name"), out, undo=lambda: lib.weft_image_free(out)
+        )
     else:
-        logged("weft_image_read", path(file, "file"), ctypes.byref(image))
+        logged("weft_image_read", path(file, "file"), out, undo=lambda: lib.weft_image_free(out))
     return taken(image)
 
 

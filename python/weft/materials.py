@@ -59,7 +59,7 @@ class Material:
         if file is None:
             lib.weft_material_default(ctypes.byref(self._material))
         else:
-            pointer = created("weft_material_read_woven", path(file, "file"), ctypes.byref(self._material), log=True)
+            pointer = created("weft_material_read_woven", path(file, "file"), ctypes.byref(self._material), free="weft_cloth_free")
             self.cloth = Cloth._of(pointer) if pointer else None
         for name, value in inputs.items():
             self[name] = value

@@ -212,6 +212,7 @@ def match_asset(
             None,
             ctypes.byref(report),
             ctypes.byref(count),
+            undo=lambda: lib.weft_match_report_free(report),
         )
     try:
         return [

@@ -68,11 +68,14 @@ class Scene(Handle):
         self, file: Union[PathLike, bytes] = "builtin:cloth", *, name: str = "scene.glb", progress: Progress = None
     ) -> None:
         if isinstance(file, bytes):
-            pointer = created("weft_scene_load_memory", file, len(file), text(name, "name"), log=True)
+            super().__init__(
+                created("weft_scene_load_memory", file, len(file), text(name, "name"), free=self._free)
+            )
         else:
-            with Watch(progress) as watch:
-                pointer = created("weft_scene_load_watched", path(file, "file"), watch.callback, None, log=True)
-        super().__init__(pointer)
+            with Watch(progress) as watch:  # which may raise, and so frees, what there is
+                super().__init__(
+                    created("weft_scene_load_watched", path(file, "file"), watch.callback, None, free=self._free)
+                )
         self._revision = 0
 
     def __repr__(self) -> str:
@@ -657,9 +660,8 @@ class Raster(Handle):
         self._scene, self._watch = scene, Watch(progress)
         desc.progress = self._watch.callback
         with scene._use() as pointer, self._watch:
-            made = created("weft_raster_create", pointer, ctypes.byref(desc), log=True)
+            super().__init__(created("weft_raster_create", pointer, ctypes.byref(desc), free=self._free), scene)
             self._revision = scene._revision
-        super().__init__(made, scene)
 
     def draw(
         self,

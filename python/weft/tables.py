@@ -236,7 +236,7 @@ class Ltc(Handle):
         pointer = _lobe(lobe)
         with Watch(progress) as watch:
             desc.progress = ctypes.cast(watch.callback, type(desc.progress))
-            super().__init__(created("weft_ltc_create", pointer, ctypes.byref(desc), log=True))
+            super().__init__(created("weft_ltc_create", pointer, ctypes.byref(desc), free=self._free))
 
     @property
     def info(self) -> Record:

@@ -34,9 +34,9 @@ class Draft(Handle):
 
     def __init__(self, what: Union[PathLike, bytes], *, name: str = "draft.wif") -> None:
         if isinstance(what, bytes):
-            pointer = created("weft_draft_read_memory", what, len(what), text(name, "name"), log=True)
+            pointer = created("weft_draft_read_memory", what, len(what), text(name, "name"), free=self._free)
         else:
-            pointer = created("weft_draft_read", path(what, "what"), log=True)
+            pointer = created("weft_draft_read", path(what, "what"), free=self._free)
         super().__init__(pointer)
 
     @classmethod

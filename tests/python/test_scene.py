@@ -1,14 +1,17 @@
 """Scenes, pictures and their differences; the doctor; memory that is freed at the right time."""
 import gc
+import json
 import os
 import signal
 import threading
 import time
+import warnings
 
 import pytest
 from conftest import close, listed
 
 import weft
+from weft import _library as library
 
 SMALL = dict(width=48, height=36)
 
@@ -282,3 +285,49 @@ def test_opengl_draws_the_scene(cloth):
         assert close(mean(lit), mean(traced), 0.05)
         with pytest.raises(ValueError, match="frames"):
             drawn.draw(frames=-1)
+
+
+def handles_freed(monkeypatch, name):
+    """Counts the calls of a function that frees."""
+    calls, real = [], getattr(library.lib, name)
+    monkeypatch.setattr(library.lib, name, lambda *arguments: (calls.append(1), real(*arguments))[1])
+    return calls
+
+
+def glossy(tmp_path):
+    """Writes a scene with a roughness that is clamped with a warning."""
+    document = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": {"roughnessFactor": 7}}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]}
+        ],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [
+            {
+                "byteLength": 36,
+                "uri": "data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA",
+            }
+        ],
+    }
+    file = tmp_path / "glossy.gltf"
+    file.write_text(json.dumps(document))
+    return file
+
+
+def test_what_a_call_made_is_freed_where_a_warning_is_an_exception(tmp_path, monkeypatch):
+    freed, file = handles_freed(monkeypatch, "weft_scene_free"), glossy(tmp_path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for source in (file, file.read_bytes()):
+            with pytest.raises(weft.WeftWarning):
+                weft.Scene(source)
+    gc.collect()
+    assert len(freed) == 2
+    with pytest.warns(weft.WeftWarning):
+        weft.Scene(file).close()
+    assert len(freed) == 3
