@@ -85,7 +85,10 @@ class Scene(Handle):
         """Makes a call that changes the scene, after which pictures of it are begun anew."""
         with self._use(alone=True) as pointer:
             self._revision += 1
-            (logged if log else call)(name, pointer, *arguments)
+            if log:
+                logged(name, pointer, *arguments)
+            else:
+                call(name, pointer, *arguments)
 
     @property
     def info(self) -> SceneInfo:
