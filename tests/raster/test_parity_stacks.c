@@ -43,7 +43,7 @@ static void layer_rules_in_glsl_agree_with_c(void **state) {
 /* A surface and its choices are numbers in a row behind the pair of directions. */
 enum { SURFACE_AT = 8, CHOICES_AT = SURFACE_AT + sizeof(Surface) / sizeof(float) };
 enum { STACK_INPUTS = (CHOICES_AT + CHOICE_COUNT + 3) / 4 };
-_Static_assert((int)STACK_INPUTS == 23, "the body of stacks_agree reads as many");
+_Static_assert((int)STACK_INPUTS == 27, "the body of stacks_agree reads as many");
 
 /* Functions that make a Surface and Choices of the row. */
 static void put_readers(Text *text) {
@@ -168,15 +168,16 @@ static void stacks_in_glsl_agree_with_c(void **state) {
     (void)state;
     static const Model model = {
         .body = "    for (int c = 0; c < 4; c++) {\n" ROW(2) ROW(3) ROW(4) ROW(5) ROW(6) ROW(7) ROW(8) ROW(9) ROW(10)
-            ROW(11) ROW(12) ROW(13) ROW(14) ROW(15) ROW(16) ROW(17) ROW(18) ROW(19) ROW(20) ROW(21)
-                ROW(22) "    }\n" ANGLES "    Stack m;\n    surface_stack(m, row_surface(), row_choices(), "
-                        "lobe_table_charlie_neubelt());\n    StackView w;\n    stack_view(m, o, w);\n"
-                        "    Angles coat = angles_between(w.coat_o, stack_to_coat(m, a.i));\n"
-                        "    StackValue v = stack_value(m, w, a, coat), t = stack_transmitted(m, w, a);\n"
-                        "    v.f_cos = rgb_add(v.f_cos, t.f_cos);\n    v.pdf += t.pdf;\n"
-                        "    out0 = vec4(v.f_cos.r, v.f_cos.g, v.f_cos.b, v.pdf);\n"
-                        "    out1 = vec4(w.select_p.diffuse, w.select_p.specular, w.select_p.sheen, "
-                        "w.select_p.coat);\n",
+            ROW(11) ROW(12) ROW(13) ROW(14) ROW(15) ROW(16) ROW(17) ROW(18) ROW(19) ROW(20) ROW(21) ROW(22) ROW(23)
+                ROW(24) ROW(25)
+                    ROW(26) "    }\n" ANGLES "    Stack m;\n    surface_stack(m, row_surface(), row_choices(), "
+                            "lobe_table_charlie_neubelt());\n    StackView w;\n    stack_view(m, o, w);\n"
+                            "    Angles coat = angles_between(w.coat_o, stack_to_coat(m, a.i));\n"
+                            "    StackValue v = stack_value(m, w, a, coat), t = stack_transmitted(m, w, a);\n"
+                            "    v.f_cos = rgb_add(v.f_cos, t.f_cos);\n    v.pdf += t.pdf;\n"
+                            "    out0 = vec4(v.f_cos.r, v.f_cos.g, v.f_cos.b, v.pdf);\n"
+                            "    out1 = vec4(w.select_p.diffuse, w.select_p.specular, w.select_p.sheen, "
+                            "w.select_p.coat);\n",
         .inputs = STACK_INPUTS,
         .answers = "nnnnnnnn",
         .put = put_stack,
