@@ -76,7 +76,7 @@ static uint64_t hash_measured(uint64_t hash, const Measured *measured) {
 
 /* Hashes what materials refer to by number. */
 static uint64_t hash_surfaces(uint64_t hash, const WeftScene *scene) {
-    hash = cache_hash(hash, scene->materials, (size_t)scene->material_count * sizeof *scene->materials);
+    hash = cache_hash(hash, scene->materials, (size_t)scene_shaded_materials(scene) * sizeof *scene->materials);
     for (int k = 0; k < scene->texture_count; k++) hash = hash_texture(hash, scene, &scene->textures[k]);
     for (int k = 1; k <= scene->cloth_count; k++) hash = hash_cloth(hash, scene, k);
     for (int k = 0; k < scene->measured_count; k++) hash = hash_measured(hash, scene->measured[k]);

@@ -59,6 +59,11 @@ int scene_adopt_cloth(WeftScene *scene, WeftCloth *cloth) {
     return ++scene->cloth_count;
 }
 
+const WeftCloth *scene_cloth_of(const WeftScene *scene, const Material *material) {
+    const int number = material->cloth;
+    return number > 0 ? scene->cloths[number - 1] : number < 0 ? scene->cloths[-number - 1]->other : NULL;
+}
+
 int scene_adopt_measured(WeftScene *scene, Measured *measured) {
     for (int k = 0; measured->path && k < scene->measured_count; k++) {
         const char *path = scene->measured[k]->path;

@@ -38,6 +38,8 @@ struct WeftCloth {
     char *text;              /* JSON: the weave of the material that it came from; NULL without a material */
     WeftDraft *draft;        /* as it was read; owned; NULL if no material has the cloth */
     char *path;              /* of the draft's file, absolute; NULL if the text contains the draft */
+    struct WeftCloth *other; /* cloth_other_face of it; owned; NULL: nobody has asked for it yet */
+    bool other_face;         /* true in the cloth that is the other of one */
     double size[2];          /* of the repeat, metres */
     double metres;           /* spanned by a unit of texture coordinates */
     bool automatic;          /* metres follows from the mesh (scene/material/cloth_fit.h) */
@@ -55,6 +57,12 @@ void cloth_rotate(WeftCloth *cloth, double degrees);
 
 /* Returns a copy that shares no memory with the cloth, or NULL if memory is short. */
 WeftCloth *cloth_copy(const WeftCloth *cloth);
+
+/* Returns the other face of a cloth as a cloth, for points that are seen from behind, or NULL if memory is short. What is
+ * over is under there. From behind a renderer turns the normal, the tangent and the bitangent about
+ * (trace/path/vertex.c), so threads are counted the other way along both systems, which is per_uv below 0; and as this
+ * frame mirrors, a yarn's twist has the other sign. */
+WeftCloth *cloth_other_face(const WeftCloth *cloth);
 
 /* Returns true if both came from the same text, and from the same draft if that is in a file, and have the same
  * metres. */

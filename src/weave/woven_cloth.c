@@ -152,8 +152,10 @@ WeftResult weft_cloth_create(const WeftDraft *draft, const WeftYarn yarns[2], un
 
 void cloth_spread(WeftCloth *cloth, double metres) {
     cloth->metres = metres;
-    cloth->per_uv[WEFT_WARP] = (float)(metres * (double)cloth->weave.warps / cloth->size[WEFT_WARP]);
-    cloth->per_uv[WEFT_WEFT] = (float)(metres * (double)cloth->weave.picks / cloth->size[WEFT_WEFT]);
+    if (cloth->other) cloth_spread(cloth->other, metres);
+    const double along = cloth->other_face ? -metres : metres;
+    cloth->per_uv[WEFT_WARP] = (float)(along * (double)cloth->weave.warps / cloth->size[WEFT_WARP]);
+    cloth->per_uv[WEFT_WEFT] = (float)(along * (double)cloth->weave.picks / cloth->size[WEFT_WEFT]);
 }
 
 void cloth_rotate(WeftCloth *cloth, double degrees) {
@@ -161,6 +163,7 @@ void cloth_rotate(WeftCloth *cloth, double degrees) {
     const double quarters = degrees / 90.0, angle = degrees * RADIANS;
     const bool exact = !(quarters < (floor)(quarters) || quarters > (floor)(quarters));
     cloth->rotation = degrees;
+    if (cloth->other) cloth_rotate(cloth->other, degrees);
     cloth->rotation_parts[0] = (float)(exact ? (round)((cos)(angle)) : (cos)(angle));
     cloth->rotation_parts[1] = (float)(exact ? (round)((sin)(angle)) : (sin)(angle));
 }
@@ -172,6 +175,7 @@ void weft_cloth_free(WeftCloth *cloth) {
     free(cloth->far.texels);
     free(cloth->text);
     free(cloth->path);
+    weft_cloth_free(cloth->other);
     weft_draft_free(cloth->draft);
     free(cloth);
 }
@@ -199,6 +203,7 @@ WeftCloth *cloth_copy(const WeftCloth *cloth) {
     copy->text = cloth->text ? strdup(cloth->text) : NULL;
     copy->path = cloth->path ? strdup(cloth->path) : NULL;
     copy->draft = NULL;
+    copy->other = NULL;
     const bool whole = copy->runs && copy->albedos && copy->far.texels && !copy->text == !cloth->text &&
                        !copy->path == !cloth->path &&
                        (!cloth->draft || weft_draft_copy(cloth->draft, &copy->draft, NULL) == WEFT_OK);
@@ -215,6 +220,50 @@ bool cloth_same(const WeftCloth *a, const WeftCloth *b) {
     if (!a->text || !same_text(a->text, b->text) || !same_text(a->path, b->path)) return false;
     if (a->metres < b->metres || a->metres > b->metres) return false;
     return a->draft && b->draft ? draft_same(a->draft, b->draft) : a->draft == b->draft;
+}
+
+/* Writes the runs of both threads at each crossing, seen from behind: the crossings in reverse, what was over under. */
+static void reverse_runs(const WeftCloth *from, WeftCloth *to) {
+    const size_t cells = (size_t)from->weave.warps * (size_t)from->weave.picks;
+    for (size_t cell = 0; cell < cells; cell++)
+        for (int t = 0; t < 2; t++) {
+            const float *run = from->runs + 4 * cell + 2 * (size_t)t, length = fabsf(run[1]);
+            float *reverse = to->runs + 4 * (cells - 1 - cell) + 2 * (size_t)t;
+            reverse[0] = length > 0.0f ? length - 1.0f - run[0] : 0.0f;
+            reverse[1] = 0.0f - run[1];
+        }
+}
+
+/* Writes the albedos of the threads of each system in reverse. */
+static void reverse_albedos(const WeftCloth *from, WeftCloth *to) {
+    const int counts[2] = {from->weave.warps, from->weave.picks};
+    size_t first = 0;
+    for (int t = 0; t < 2; first += (size_t)counts[t++])
+        for (size_t k = 0; k < (size_t)counts[t]; k++)
+            memcpy(to->albedos + 3 * (first + k), from->albedos + 3 * (first + (size_t)counts[t] - 1 - k),
+                   3 * sizeof(float));
+}
+
+static void mirror_twist(WeaveYarn *yarn) {
+    yarn->twist = 0.0f - yarn->twist;
+    yarn->sin_twist = 0.0f - yarn->sin_twist;
+}
+
+WeftCloth *cloth_other_face(const WeftCloth *cloth) {
+    WeftCloth *other = cloth_copy(cloth);
+    if (!other) return NULL;
+    other->other_face = !cloth->other_face;
+    reverse_runs(cloth, other);
+    reverse_albedos(cloth, other);
+    for (int t = 0; t < 2; t++) other->yarns[t].twist = 0.0f - cloth->yarns[t].twist;
+    mirror_twist(&other->weave.warp);
+    mirror_twist(&other->weave.weft);
+    free(other->far.texels);
+    other->far = (ClothFar){0};
+    cloth_spread(other, cloth->metres);
+    if (cloth_far_make(other)) return other;
+    weft_cloth_free(other);
+    return NULL;
 }
 
 WeftClothInfo weft_cloth_info(const WeftCloth *cloth) {

@@ -37,7 +37,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const WeftLog log = {.fn = note};
     MaterialFile file;
     WeftError error;
-    const WeftResult result = u3m_read(data, size, "fuzz", &(U3mFiles){NULL}, &file, &log, &error);
+    const WeftResult result = u3m_read(data, size, "fuzz", &(U3mFiles){.folder = NULL}, &file, &log, &error);
     if (result == WEFT_OK)
         check(&file);
     else

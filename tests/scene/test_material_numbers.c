@@ -249,9 +249,12 @@ static void profile_reads_only_its_inputs(void **state) {
     (void)state;
     WeftMaterial m = plain();
     set_choice(&m, "workflow", "disney");
-    assert_reads(&m, "-diffuse_transmission sheen -sheen_color -sheen_roughness specular -reflectance "
+    assert_reads(&m, "diffuse_transmission sheen -sheen_color -sheen_roughness specular -reflectance "
                      "subsurface clearcoat "
                      "-clearcoat_gloss -clearcoat_roughness");
+    WeftMaterial published = m;
+    set_choice(&published, "profile", "disney-2012");
+    assert_reads(&published, "-diffuse_transmission sheen -sheen_color");
     m.inputs[input_of("base_color")].value[0] = 0.1f;
     set_value(&m, "clearcoat", 1.0f);
     set_value(&m, "sheen", 1.0f);

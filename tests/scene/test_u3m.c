@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <zip.h>
 
 #include <cmocka.h>
 
@@ -30,7 +31,7 @@ static MaterialFile file_of(const char *text) {
     MaterialFile file;
     WeftError error;
     warnings = 0;
-    if (u3m_read(text, strlen(text), "x.u3m", &(U3mFiles){""}, &file, &counting, &error) != WEFT_OK)
+    if (u3m_read(text, strlen(text), "x.u3m", &(U3mFiles){.folder = ""}, &file, &counting, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     return file;
 }
@@ -164,7 +165,7 @@ static void a_picture_that_is_not_there_gives_way_to_the_constant(void **state) 
 static void refused(const char *text, const char *words) {
     MaterialFile file;
     WeftError error = {0};
-    assert_int_equal(u3m_read(text, strlen(text), "x.u3m", &(U3mFiles){""}, &file, NULL, &error), WEFT_INPUT);
+    assert_int_equal(u3m_read(text, strlen(text), "x.u3m", &(U3mFiles){.folder = ""}, &file, NULL, &error), WEFT_INPUT);
     if (!strstr(error.text, words) || strchr(error.text, '\n')) fail_msg("%s lacks %s", error.text, words);
     material_file_free(&file);
 }
@@ -225,6 +226,178 @@ static void pictures_lie_in_millimetres(void **state) {
     assert_true(chdir("/") == 0 && scratch_remove(folder));
 }
 
+/* Writes a zip of files: path, contents, path, contents, and so on to NULL. */
+static void pack(const char *path, const char *const *files) {
+    int why;
+    zip_t *zip = zip_open(path, ZIP_CREATE | ZIP_TRUNCATE, &why);
+    assert_non_null(zip);
+    for (int k = 0; files[k]; k += 2) {
+        zip_source_t *source = zip_source_buffer(zip, files[k + 1], strlen(files[k + 1]), 0);
+        assert_true(source && zip_file_add(zip, files[k], source, ZIP_FL_ENC_UTF_8) >= 0);
+    }
+    assert_int_equal(zip_close(zip), 0);
+}
+
+static void load_refused(const char *words) {
+    MaterialFile file;
+    WeftError error = {0};
+    const WeftResult result = u3m_load("x.u3ma", &file, NULL, &error);
+    if (result != WEFT_INPUT || !strstr(error.text, words) || strchr(error.text, '\n'))
+        fail_msg("%s lacks %s", error.text, words);
+    material_file_free(&file);
+}
+
+/* Replaces four bytes of x.u3ma after each mark, whose offset from it is at. */
+static void forge(const char *mark, long at, unsigned value) {
+    FILE *f = fopen("x.u3ma", "r+b");
+    char bytes[8192];
+    assert_non_null(f);
+    const size_t size = fread(bytes, 1, sizeof bytes, f);
+    for (size_t k = 0; k + 46 < size; k++)
+        if (memcmp(bytes + k, mark, 4) == 0) memcpy(bytes + k + at, &value, 4);
+    rewind(f);
+    assert_int_equal(fwrite(bytes, 1, size, f), size);
+    assert_int_equal(fclose(f), 0);
+}
+
+static void archives_are_read_and_hostile_ones_refused(void **state) {
+    (void)state;
+    char folder[SCRATCH_SIZE], text[U3M_TEXT];
+    assert_true(scratch_enter(folder));
+    assert_int_equal(system("mkdir t"), 0);
+    u3m_text(text, "\"roughness\"", "{\"constant\":0.3,\"texture\":{\"factor\":1,\"offset\":0," IMAGE "}}");
+    pack("x.u3ma", (const char *const[]){"cloth/c.u3m", text, NULL}); /* the picture is missing */
+    MaterialFile file;
+    WeftError error;
+    warnings = 0;
+    assert_int_equal(u3m_load("x.u3ma", &file, &counting, &error), WEFT_OK);
+    near(value(&file, INPUT_roughness), 0.3f);
+    assert_int_equal(warnings, 1);
+    assert_non_null(strstr(last, "the archive has no cloth/t/p.png"));
+    material_file_free(&file);
+    picture("t/p.png", 102, 102, 102);
+    int why;
+    zip_t *zip = zip_open("x.u3ma", 0, &why);
+    assert_true(zip && zip_file_add(zip, "cloth/t/p.png", zip_source_file(zip, "t/p.png", 0, -1), 0) >= 0);
+    assert_int_equal(zip_close(zip), 0);
+    assert_int_equal(u3m_load("x.u3ma", &file, NULL, &error), WEFT_OK);
+    near(texel(&file, INPUT_roughness, 0), 0.4f);
+    material_file_free(&file);
+    pack("x.u3ma", (const char *const[]){"c.u3m", text, "../p.png", "x", NULL});
+    load_refused("would lie outside the archive's folder");
+    pack("x.u3ma", (const char *const[]){"c.u3m", text, "/p.png", "x", NULL});
+    load_refused("would lie outside the archive's folder");
+    pack("x.u3ma", (const char *const[]){"c.u3m", text, "d.u3m", text, NULL});
+    load_refused("is a second .u3m");
+    pack("x.u3ma", (const char *const[]){"c.json", text, NULL});
+    load_refused("has no .u3m");
+    pack("x.u3ma", (const char *const[]){"c.u3m", text, NULL});
+    forge("PK\1\2", 24, 0x7fffffffu); /* 2 GiB, as a bomb says */
+    forge("PK\3\4", 22, 0x7fffffffu);
+    load_refused("is too large");
+    assert_int_equal(truncate("x.u3ma", 300), 0);
+    load_refused("the archive:");
+    assert_true(chdir("/") == 0 && scratch_remove(folder));
+}
+
+#define PHYSICS(construction, fibre)                                                                                   \
+    "{\"thickness\":0.4,\"weight\":180,\"devices\":{\"fab\":\"null\"},\"composition\":{\"parts\":[{\"ratio\":0.3,"     \
+    "\"type\":"                                                                                                        \
+    "\"Cotton\",\"name\":null},{\"ratio\":0.7,\"type\":\"" fibre "\",\"name\":null}]},\"material_type\":{\"type\":"    \
+    "\"Woven\",\"name\":null},\"construction\":{\"type\":\"" construction "\",\"name\":null}}"
+
+static void a_cloth_without_a_texture_is_woven_by_its_construction(void **state) {
+    (void)state;
+    char text[U3M_TEXT];
+    u3m_text(text, "\"physics\"", PHYSICS("Twill - left hand (S)", "Wild Silk"));
+    MaterialFile file = file_of(text);
+    assert_non_null(file.cloth);
+    assert_int_equal(warnings, 1);
+    assert_non_null(strstr(last, "twill 2/2 s; sett 30 24 of dupion"));
+    material_file_free(&file);
+    u3m_text(text, "\"physics\"", PHYSICS("Single jersey", "Wool")); /* no weave */
+    file = file_of(text);
+    assert_true(!file.cloth && warnings == 0);
+    material_file_free(&file);
+    u3m_text(text, "\"physics\"", PHYSICS("Twill", "Wool"));
+    u3m_put(text, "\"roughness\"", "{\"constant\":0.3,\"texture\":{\"factor\":1,\"offset\":0," IMAGE "}}");
+    file = file_of(text);
+    assert_null(file.cloth); /* it has a picture, though that is missing here */
+    material_file_free(&file);
+}
+
+static void the_back_is_read_beside_the_front(void **state) {
+    (void)state;
+    char text[U3M_TEXT], back[U3M_TEXT];
+    snprintf(back, sizeof back, "%s", U3M_VISUAL);
+    u3m_put(back, "\"roughness\"", U3M_NUMBER_OF("0.125"));
+    u3m_text(text, "\"back\"", back);
+    MaterialFile file = file_of(text);
+    assert_non_null(file.back);
+    near(value(&file, INPUT_roughness), 0.7f);
+    near(value(file.back, INPUT_roughness), 0.125f);
+    material_file_free(&file);
+    u3m_put(text, "\"front\"", "null");
+    file = file_of(text);
+    assert_null(file.back);
+    near(value(&file, INPUT_roughness), 0.125f);
+    material_file_free(&file);
+}
+
+/* Changes, drops or repeats a byte of size bytes in place. Returns the new size. */
+static size_t damage(char *bytes, size_t size, unsigned *state) {
+    *state = *state * 1664525u + 1013904223u;
+    const size_t at = (*state >> 8) % size;
+    switch (*state >> 30) {
+    case 0: memmove(bytes + at, bytes + at + 1, size - at - 1); return size - 1;
+    case 1: bytes[at] = (char)(bytes[at] ^ (1 << (*state >> 26 & 7u))); return size;
+    case 2: bytes[at] = "\"{}[],:0e-"[*state >> 20 & 7u]; return size;
+    default: return at > 64 ? at : size; /* cut off */
+    }
+}
+
+static void judge(WeftResult result, MaterialFile *file, const WeftError *error) {
+    if (result != WEFT_OK) assert_true(error->text[0] && !strchr(error->text, '\n'));
+    for (int k = 0; result == WEFT_OK && k < INPUT_COUNT; k++) assert_true(isfinite(file->material.inputs[k].value[0]));
+    material_file_free(file);
+}
+
+static void damaged_files_are_read_or_refused(void **state) {
+    enum { ROUNDS = 20000 };
+    (void)state;
+    char folder[SCRATCH_SIZE], text[U3M_TEXT], bytes[U3M_TEXT];
+    assert_true(scratch_enter(folder));
+    u3m_text(text, "\"roughness\"", "{\"constant\":0.3,\"texture\":{\"factor\":1,\"offset\":0," IMAGE "}}");
+    pack("x.u3ma", (const char *const[]){"c.u3m", text, "t/p.png", "x", NULL});
+    FILE *f = fopen("x.u3ma", "rb");
+    char whole[U3M_TEXT];
+    const size_t packed = f ? fread(whole, 1, sizeof whole, f) : 0;
+    assert_true(packed > 0 && packed < sizeof whole && fclose(f) == 0);
+    unsigned seed = 1;
+    for (int k = 0; k < ROUNDS; k++) {
+        MaterialFile file;
+        WeftError error = {0};
+        size_t size = strlen(text);
+        memcpy(bytes, text, size);
+        for (int n = 0; n <= k % 3; n++) size = damage(bytes, size, &seed);
+        judge(u3m_read(bytes, size, "x.u3m", &(U3mFiles){.folder = NULL}, &file, NULL, &error), &file, &error);
+        U3mArchive *archive;
+        FileBytes read = {0};
+        size = packed;
+        memcpy(bytes, whole, size);
+        for (int n = 0; n <= k % 3; n++) size = damage(bytes, size, &seed);
+        if (u3m_archive_open(bytes, size, "x.u3ma", &archive, &error) != WEFT_OK) {
+            assert_true(error.text[0] && !strchr(error.text, '\n'));
+            continue;
+        }
+        if (u3m_archive_read(archive, u3m_archive_material(archive), &read, &error) != WEFT_OK)
+            assert_null(strchr(error.text, '\n'));
+        free(read.data);
+        u3m_archive_close(archive);
+    }
+    assert_true(chdir("/") == 0 && scratch_remove(folder));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(constants_are_the_inputs_of_the_principled_brdf),
@@ -233,6 +406,10 @@ int main(void) {
         cmocka_unit_test(a_picture_that_is_not_there_gives_way_to_the_constant),
         cmocka_unit_test(faults_are_refused_in_one_line),
         cmocka_unit_test(pictures_lie_in_millimetres),
+        cmocka_unit_test(archives_are_read_and_hostile_ones_refused),
+        cmocka_unit_test(damaged_files_are_read_or_refused),
+        cmocka_unit_test(a_cloth_without_a_texture_is_woven_by_its_construction),
+        cmocka_unit_test(the_back_is_read_beside_the_front),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -262,6 +262,9 @@ static int visit_make(Visit *visit) {
     if (strncmp(visit->path, "builtin:", 8) == 0)
         return report(WEFT_INPUT, "%s: has no file; weft render %s --save FILE.glb makes one", visit->path,
                       visit->path);
+    if (path_is_u3m(visit->path))
+        return report(WEFT_INPUT, "%s: is a material and no glTF; weft render %s says what of it is not shown",
+                      visit->path, visit->path);
     result = examine(visit);
     if (result != 0) return result;
     if (option_given(visit->options, "--json"))

@@ -6,6 +6,7 @@
 #include "gltf/read/gltf.h"
 #include "scene/builtin/builtin.h"
 #include "scene/light/environment.h"
+#include "scene/material/backs.h"
 #include "scene/material/cloth_fit.h"
 #include "weft/scene.h"
 
@@ -45,7 +46,8 @@ static WeftResult load(const char *path, const void *data, size_t size, Watcher 
     if (result == WEFT_OK) {
         scene_bounds(scene);
         environment_give_way(scene);
-        result = cloths_fit(scene, true, error);
+        result = backs_make(scene, error);
+        if (result == WEFT_OK) result = cloths_fit(scene, true, error);
     }
     if (result == WEFT_OK && alone) result = weft_scene_assign_material(scene, NULL, path, log, error);
     if (result == WEFT_OK)

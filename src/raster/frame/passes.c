@@ -141,8 +141,10 @@ static void draw_side(const WeftRaster *self, int mesh, GLenum culled) {
     meshes_draw(&self->meshes, mesh);
 }
 
-static WeftResult draw_mesh(WeftRaster *self, int mesh, MeshPass pass, const ShaderKey *key, WeftError *error) {
-    int k = self->scene->meshes[mesh].material;
+/* Draws a mesh in material k. culled: faces of one side that are left out; GL_NONE: none but those that the material
+ * lacks. */
+static WeftResult draw_mesh(WeftRaster *self, int mesh, int k, GLenum culled, MeshPass pass, const ShaderKey *key,
+                            WeftError *error) {
     const GlMaterial *material = &self->materials.all[k];
     const Program *program;
     WeftResult result = use_program(self, key, &program, error);
@@ -152,7 +154,9 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, MeshPass pass, const Sha
     glActiveTexture(GL_TEXTURE0); /* leaves unit 0 active, where code between draws binds the objects it makes */
     materials_bind(&self->materials, &self->textures, k, BLOCK_MATERIAL);
     glUniform1f(program->least_opacity, pass == PASS_SOLID ? SOLID_OPACITY : 0.0f); /* without effect at -1 */
-    if (material->key.double_sided && pass == PASS_BLENDED) {
+    if (culled != GL_NONE) {
+        draw_side(self, mesh, culled);
+    } else if (material->key.double_sided && pass == PASS_BLENDED) {
         draw_side(self, mesh, GL_FRONT);
         draw_side(self, mesh, GL_BACK);
     } else if (material->key.double_sided) {
@@ -181,8 +185,9 @@ static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
         if (m >= scene_own_meshes(self->scene) && m < scene_light_meshes(self->scene)) continue;
-        ShaderKey key = depth_key(&self->materials.all[self->scene->meshes[m].material].key);
-        result = draw_mesh(self, m, PASS_SOLID, &key, error);
+        const int k = self->scene->meshes[m].material;
+        ShaderKey key = depth_key(&self->materials.all[k].key);
+        result = draw_mesh(self, m, k, GL_NONE, PASS_SOLID, &key, error);
     }
     return result;
 }
@@ -260,6 +265,19 @@ static bool takes_part(const WeftScene *scene, int mesh, MeshPass pass) {
     return pass == PASS_SOLID ? solid : !solid || opacity->texture || m->color || material->cloth;
 }
 
+/* Draws a mesh in its material, and its back faces before in the material's back, if that is another one. */
+static WeftResult draw_faces(WeftRaster *self, int mesh, MeshPass pass, const WeftRasterView *view, WeftError *error) {
+    const int front = self->scene->meshes[mesh].material, back = scene_back(self->scene, front);
+    WeftResult result = WEFT_OK;
+    if (back >= 0) {
+        const ShaderKey key = lit_key(self, view, &self->materials.all[back]);
+        result = draw_mesh(self, mesh, back, GL_FRONT, pass, &key, error);
+    }
+    const ShaderKey key = lit_key(self, view, &self->materials.all[front]);
+    if (result == WEFT_OK) result = draw_mesh(self, mesh, front, back >= 0 ? GL_BACK : GL_NONE, pass, &key, error);
+    return result;
+}
+
 /* Draws a pass of the meshes from `first` on, of those in the queue's order before `end`. */
 static WeftResult draw_meshes(WeftRaster *self, int first, int end, MeshPass pass, const WeftRasterView *view,
                               WeftError *error) {
@@ -268,8 +286,7 @@ static WeftResult draw_meshes(WeftRaster *self, int first, int end, MeshPass pas
         int mesh = self->queue.order[k];
         if (view->hide_lights && mesh >= scene_light_meshes(self->scene)) continue;
         if (k >= self->queue.solid && !self->summing && !takes_part(self->scene, mesh, pass)) continue;
-        ShaderKey key = lit_key(self, view, &self->materials.all[self->scene->meshes[mesh].material]);
-        result = draw_mesh(self, mesh, pass, &key, error);
+        result = draw_faces(self, mesh, pass, view, error);
     }
     return result;
 }

@@ -225,7 +225,7 @@ static WeftResult update_materials(WeftRaster *self, MaterialsChange *change, co
     WeftResult result = WEFT_OK;
     MaterialsChange stale = {0};
     bool serve = textures_serve(&textures, scene);
-    for (int k = 0; k < scene->material_count; k++) add_stale(self, &scene->materials[k], &stale);
+    for (int k = 0; k < scene_shaded_materials(scene); k++) add_stale(self, &scene->materials[k], &stale);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     if (serve) result = textures_refresh(&self->textures, scene, self->desc.threads, error);
     if (!serve) result = textures_create(scene, self->desc.threads, &textures, log, error);

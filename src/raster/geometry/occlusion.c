@@ -369,7 +369,7 @@ static bool copy_scene(Occlusion *self, const WeftScene *scene) {
     self->scene = *scene;
     self->scene.mesh_count = scene_own_meshes(scene);
     self->scene.material_count = scene_own_materials(scene);
-    self->scene.polygon_light_count = self->scene.hair_count = 0;
+    self->scene.polygon_light_count = self->scene.hair_count = self->scene.back_count = 0;
     self->scene.meshes = alloc_array(meshes, sizeof(Mesh));
     self->scene.materials = alloc_array(materials, sizeof(Material));
     if (!self->scene.meshes || !self->scene.materials) return false;

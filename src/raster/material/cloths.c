@@ -6,6 +6,7 @@
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "raster/gl/gl_check.h"
 #include "shading/weave/weave_light.h"
 #include "weave/weft_cloth.h"
@@ -44,34 +45,41 @@ static void upload_colors(const ClothFar *far, unsigned texture) {
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, far->levels - 1);
 }
 
+/* Returns the place of a cloth by its number: the other face of a cloth, whose number is below 0, comes behind it. */
+static int place_of(int number) { return number > 0 ? 2 * number - 2 : -2 * number - 1; }
+
+/* Uploads a cloth unless it was. cloth: NULL for a face that there is not. Returns false if memory is short. */
+static bool upload(GlCloth *one, const WeftCloth *cloth) {
+    if (!cloth || one->cloth) return true;
+    one->cloth = cloth;
+    glGenTextures(1, &one->cells);
+    glGenTextures(1, &one->colors);
+    upload_colors(&cloth->far, one->colors);
+    return upload_cells(cloth, one->cells);
+}
+
 WeftResult cloths_update(GlCloths *self, const WeftScene *scene, WeftError *error) {
-    if (self->count >= scene->cloth_count) return WEFT_OK;
-    GlCloth *all = alloc_array((size_t)scene->cloth_count, sizeof *all);
-    bool made = all != NULL;
-    for (int k = 0; made && k < self->count; k++) all[k] = self->all[k];
-    if (made) {
-        free(self->all);
+    const int count = 2 * scene->cloth_count;
+    if (self->count < count) {
+        GlCloth *all = realloc_array(self->all, (size_t)count, sizeof *all);
+        if (!all) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+        memset(all + self->count, 0, (size_t)(count - self->count) * sizeof *all);
         self->all = all;
+        self->count = count;
     }
+    bool made = true;
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    while (made && self->count < scene->cloth_count) {
-        GlCloth *one = &self->all[self->count];
-        one->cloth = scene->cloths[self->count];
-        glGenTextures(1, &one->cells);
-        glGenTextures(1, &one->colors);
-        upload_colors(&one->cloth->far, one->colors);
-        made = upload_cells(one->cloth, one->cells);
-        self->count++;
-    }
+    for (int k = 0; k < scene->cloth_count && made; k++)
+        made = upload(&self->all[2 * k], scene->cloths[k]) && upload(&self->all[2 * k + 1], scene->cloths[k]->other);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     return made ? gl_check(error, "cloths") : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
 }
 
 void cloths_bind(const GlCloths *self, int cloth, int cells_unit, int colors_unit) {
     glActiveTexture(GL_TEXTURE0 + (GLenum)cells_unit);
-    glBindTexture(GL_TEXTURE_2D, self->all[cloth].cells);
+    glBindTexture(GL_TEXTURE_2D, self->all[place_of(cloth)].cells);
     glActiveTexture(GL_TEXTURE0 + (GLenum)colors_unit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, self->all[cloth].colors);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, self->all[place_of(cloth)].colors);
     glActiveTexture(GL_TEXTURE0);
 }
 

@@ -13,14 +13,14 @@ typedef struct GlCloth {
 
 /* Zero-initialise. */
 typedef struct GlCloths {
-    GlCloth *all; /* one a cloth of the scene */
+    GlCloth *all; /* two a cloth of the scene: itself and its other face, all zero where that is not seen */
     int count;
 } GlCloths;
 
 /* Uploads the cloths that are new. Fails with WEFT_MESSAGE_MEMORY or _GL_MEMORY; those before stay. */
 WeftResult cloths_update(GlCloths *cloths, const WeftScene *scene, WeftError *error);
 
-/* Binds the textures of a cloth to two units. */
+/* Binds the textures of a cloth to two units. cloth: its number, as a material has it. */
 void cloths_bind(const GlCloths *cloths, int cloth, int cells_unit, int colors_unit);
 
 void cloths_destroy(GlCloths *cloths);

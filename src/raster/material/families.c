@@ -32,7 +32,7 @@ static bool same_texel(const Material *material, int j, int k) {
 /* Returns true if in every material of a family inputs k and j read the same texel, or neither has a map. */
 static bool all_like(const Families *self, int head, int j, int k) {
     bool like = shader_same_neutral(j, k);
-    for (int m = 0; m < self->scene->material_count && like; m++)
+    for (int m = 0; m < scene_shaded_materials(self->scene) && like; m++)
         if (self->head[m] == head) like = same_texel(&self->scene->materials[m], j, k);
     return like;
 }
@@ -41,7 +41,7 @@ static bool all_like(const Families *self, int head, int j, int k) {
  * one uses both. */
 static bool slot_serves(const Families *self, int head, const int *slot, int k) {
     bool some = false;
-    for (int m = 0; m < self->scene->material_count; m++) {
+    for (int m = 0; m < scene_shaded_materials(self->scene); m++) {
         int group = self->head[m] == head ? group_of(self, m, k) : -1;
         if (group < 0 || slot[m] < 0) continue;
         if (group != slot[m]) return false;
@@ -52,7 +52,7 @@ static bool slot_serves(const Families *self, int head, const int *slot, int k) 
 
 /* Gives each map of a family's key its slot. Returns the number of slots, or TEXTURE_SLOTS + 1 if there are too few. */
 static int find_slots(Families *self, int head, ShaderKey *key) {
-    int count = self->scene->material_count, slots = 0;
+    int count = scene_shaded_materials(self->scene), slots = 0;
     for (int k = 0; k < TEXTURE_SLOTS * count; k++) self->groups[k] = -1;
     for (int k = 0; k < INPUT_COUNT; k++) {
         ShaderInput *input = &key->inputs[k];
@@ -91,7 +91,7 @@ static void join(Families *self, int m) {
 static void share_finest(Families *self, int head) {
     float finest[SLOT_COUNT] = {0.0f};
     for (int pass = 0; pass < 2; pass++)
-        for (int m = 0; m < self->scene->material_count; m++)
+        for (int m = 0; m < scene_shaded_materials(self->scene); m++)
             for (int k = 0; self->head[m] == head && k < SLOT_COUNT; k++) {
                 float *own = &self->all[m].finest[k];
                 if (pass)
@@ -103,7 +103,7 @@ static void share_finest(Families *self, int head) {
 
 /* Gives the materials of a family its key and groups. Returns false if they need more than TEXTURE_SLOTS groups. */
 static bool finish(Families *self, int head) {
-    int count = self->scene->material_count, slots = find_slots(self, head, &self->all[head].key);
+    int count = scene_shaded_materials(self->scene), slots = find_slots(self, head, &self->all[head].key);
     if (slots > TEXTURE_SLOTS) return false;
     for (int m = 0; m < count; m++) {
         if (self->head[m] != head) continue;
@@ -122,7 +122,7 @@ static bool finish(Families *self, int head) {
 }
 
 static bool make_all(Families *self) {
-    int count = self->scene->material_count;
+    int count = scene_shaded_materials(self->scene);
     bool fits = true;
     for (int m = 0; m < count; m++) self->head[m] = -1;
     for (int m = 0; m < count; m++)
@@ -133,7 +133,7 @@ static bool make_all(Families *self) {
 }
 
 WeftResult families_make(const WeftScene *scene, const GlTextures *textures, GlMaterial *all, WeftError *error) {
-    size_t count = (size_t)scene->material_count;
+    size_t count = (size_t)scene_shaded_materials(scene);
     Families self = {scene, textures, all, alloc_array(count, sizeof(int)),
                      alloc_array(count, TEXTURE_SLOTS * sizeof(int))};
     bool allocated = self.head && self.groups, fits = allocated && make_all(&self);

@@ -134,9 +134,14 @@ static void make_material(GlMaterial *self, const Material *material, const GlTe
     self->key.alpha_mode = (int)material->alpha_mode;
     self->key.unlit = material->unlit;
     self->key.double_sided = material->double_sided;
-    self->key.woven = material->cloth > 0;
+    self->key.woven = material->cloth != 0;
     for (int k = 0; k < INPUT_COUNT; k++) add_input(self, textures, material, k, uniforms);
     uniforms->more[0][0] = material->alpha_cutoff;
+}
+
+static void use(GlMaterial *material, const Mesh *mesh) {
+    material->used = true;
+    material->key.colored |= mesh->color != NULL;
 }
 
 /* Makes keys and uniforms of all materials, with the fits of the old ones. Returns false if memory is short. */
@@ -144,9 +149,9 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
                  int threads) {
     bool whole = true;
     for (int m = 0; m < scene->mesh_count; m++) {
-        int k = self->of_mesh[m] = scene->meshes[m].material;
-        self->all[k].used = true;
-        self->all[k].key.colored |= scene->meshes[m].color != NULL;
+        const int k = self->of_mesh[m] = scene->meshes[m].material, back = scene_back(scene, k);
+        use(&self->all[k], &scene->meshes[m]);
+        if (back >= 0) use(&self->all[back], &scene->meshes[m]);
     }
     for (int k = 0; k < self->count; k++) {
         Uniforms uniforms = {0};
@@ -162,7 +167,7 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
             material->key.ranged = self->count > MATERIALS_BAKED && is_isotropic(&material->key);
             add_table(material, sheen_tables_of(self->sheens, k), sheen_tables_index(self->sheens, k), &uniforms);
             material->cloth = scene->materials[k].cloth;
-            const WeftCloth *cloth = material->cloth ? scene->cloths[material->cloth - 1] : NULL;
+            const WeftCloth *cloth = scene_cloth_of(scene, &scene->materials[k]);
             if (cloth) cloth_numbers(cloth, (float *)uniforms.weave);
             whole &= add_fits(material, &scene->materials[k], cloth, threads, &uniforms);
         }
@@ -231,7 +236,7 @@ WeftResult materials_update(GlMaterials *self, const WeftScene *scene, const GlT
     GlMaterials fresh = *self;
     *change = (MaterialsChange){0};
     fresh.sheens = NULL;
-    fresh.count = scene->material_count;
+    fresh.count = scene_shaded_materials(scene);
     WeftResult result = allocate(&fresh, scene, error);
     if (fresh.count != self->count) make_uniforms(&fresh);
     if (result == WEFT_OK) result = cloths_update(&self->cloths, scene, error);
@@ -254,7 +259,7 @@ WeftResult materials_update(GlMaterials *self, const WeftScene *scene, const GlT
 static WeftResult make_buffer(GlMaterials *self, const WeftScene *scene, WeftError *error) {
     GLint aligned = 256;
     glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &aligned);
-    self->count = scene->material_count;
+    self->count = scene_shaded_materials(scene);
     self->stride = ((int)sizeof(Uniforms) + aligned - 1) / aligned * aligned;
     WeftResult result = allocate(self, scene, error);
     if (result == WEFT_OK) make_uniforms(self);
@@ -289,7 +294,7 @@ void material_in_light(const GlMaterial *self, float env_light_kappa, ShaderKey 
 void materials_bind(const GlMaterials *self, const GlTextures *textures, int material, int block) {
     const GlMaterial *m = &self->all[material];
     for (int k = 0; k < m->group_count; k++) textures_bind(textures, m->groups[k], k);
-    if (m->cloth) cloths_bind(&self->cloths, m->cloth - 1, UNIT_CLOTH_CELLS, UNIT_CLOTH_COLORS);
+    if (m->cloth) cloths_bind(&self->cloths, m->cloth, UNIT_CLOTH_CELLS, UNIT_CLOTH_COLORS);
     glBindBufferRange(GL_UNIFORM_BUFFER, (GLuint)block, self->uniforms, (GLintptr)material * self->stride,
                       (GLsizeiptr)sizeof(Uniforms));
 }

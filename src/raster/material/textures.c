@@ -86,7 +86,7 @@ static int make_plan(Plan *plan) {
     int most = 0;
     plan->count = 0;
     for (int k = 0; k < 2 * scene->texture_count; k++) plan->places[k] = (TexturePlace){-1, 0};
-    for (int m = 0; m < scene->material_count; m++) {
+    for (int m = 0; m < scene_shaded_materials(scene); m++) {
         const Material *material = &scene->materials[m];
         for (int k = 0; k < INPUT_COUNT; k++)
             if (material->inputs[k].texture) place(plan, material->inputs[k].texture - 1, textures_color(material, k));
@@ -311,7 +311,7 @@ bool textures_serve(const GlTextures *self, const WeftScene *scene) {
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side_most);
     for (int k = 0; k < self->texture_count; k++)
         if (textures_stale(self, scene, k) && !fits(self, scene, k, side_most)) return false;
-    for (int m = 0; m < scene->material_count; m++) {
+    for (int m = 0; m < scene_shaded_materials(scene); m++) {
         int count = count_groups(self->places, self->texture_count, &scene->materials[m]);
         if (count < 0 || count > TEXTURE_SLOTS) return false;
     }

@@ -125,7 +125,7 @@ static bool make_mesh(Arena *arena, Mesh *mesh) {
 static bool reserve_polygon(WeftScene *scene) {
     Arena *arena = &scene->arena;
     size_t count = (size_t)scene->polygon_light_count, more = count < 4 ? 4 : count;
-    size_t meshes = (size_t)scene->mesh_count, materials = (size_t)scene->material_count;
+    size_t meshes = (size_t)scene->mesh_count, materials = (size_t)scene_shaded_materials(scene);
     if (scene->polygon_light_count < scene->polygon_light_capacity) return true;
     Mesh *all_meshes = arena_array(arena, meshes + more, sizeof *all_meshes);
     Material *all_materials = arena_array(arena, materials + more, sizeof *all_materials);
@@ -143,8 +143,15 @@ static bool reserve_polygon(WeftScene *scene) {
     return true;
 }
 
+/* Moves the backs of materials, which lie behind the lights', by one place. */
+static void move_backs(WeftScene *scene, int step) {
+    Material *backs = scene->materials + scene->material_count;
+    memmove(backs + step, backs, (size_t)scene->back_count * sizeof *backs);
+}
+
 static void add_polygon(WeftScene *scene, int place, const WeftLight *l, const Vec3 corners[LIGHT_CORNERS]) {
     int k = scene->polygon_light_count++;
+    move_backs(scene, 1);
     scene->mesh_count++;
     scene->material_count++;
     scene->polygon_lights[k].place = place;
@@ -162,6 +169,7 @@ static void drop_polygon(WeftScene *scene, int k) {
     memmove(scene->polygon_lights + k, scene->polygon_lights + k + 1, behind * sizeof *scene->polygon_lights);
     meshes[last] = gone;
     for (int j = k; j < last; j++) meshes[j].material = first_material + j;
+    move_backs(scene, -1);
     scene->polygon_light_count--;
     scene->mesh_count--;
     scene->material_count--;

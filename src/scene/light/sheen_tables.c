@@ -94,8 +94,12 @@ static WeftResult find_table(SheenTables *self, const SheenTables *before, const
 static WeftResult find_all(SheenTables *self, const SheenTables *before, const WeftScene *scene, bool *used,
                            int threads, WeftError *error) {
     WeftResult result = WEFT_OK;
-    for (int m = 0; m < scene->mesh_count; m++) used[scene->meshes[m].material] = true;
-    for (int k = 0; k < scene->material_count && result == WEFT_OK; k++) {
+    for (int m = 0; m < scene->mesh_count; m++) {
+        const int back = scene_back(scene, scene->meshes[m].material);
+        used[scene->meshes[m].material] = true;
+        if (back >= 0) used[back] = true;
+    }
+    for (int k = 0; k < scene_shaded_materials(scene) && result == WEFT_OK; k++) {
         self->index[k] = -1;
         if (used[k]) result = find_table(self, before, &scene->materials[k], threads, &self->index[k], error);
     }
@@ -116,7 +120,7 @@ void sheen_tables_free_but(SheenTables *self, const SheenTables *kept) {
 
 WeftResult sheen_tables_renew(const SheenTables *before, const WeftScene *scene, int threads, SheenTables **out,
                               WeftError *error) {
-    size_t count = (size_t)scene->material_count;
+    size_t count = (size_t)scene_shaded_materials(scene);
     SheenTables *self = alloc_array(1, sizeof *self);
     bool *used = alloc_array(count, sizeof(bool));
     if (self) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "scene/material/backs.h"
 #include "scene/material/cloth_fit.h"
 #include "scene/material/material_file.h"
 #include "scene/material/pictures.h"
@@ -78,14 +79,14 @@ static Material assigned(const Material *old, const MaterialFile *file) {
     return fresh;
 }
 
-/* Places the pictures whose size is known in metres on the meshes of a material. */
-static void span_pictures(const WeftScene *scene, int material, const MaterialFile *file) {
-    for (int k = 0; k < INPUT_COUNT; k++) {
-        const float *span = file->span[k];
-        Input *input = &scene->materials[material].inputs[k];
-        if (!(span[0] > 0.0f && span[1] > 0.0f) || !input->texture || file->keep[k]) continue;
-        const double metres = cloth_uv_metres(scene, material, input->texcoord, NULL);
-        for (int c = 0; c < 6 && metres > 0.0; c++) input->transform[c] *= (float)(metres / (double)span[c / 3]);
+/* Places the pictures whose size is known in metres on the meshes of material k. */
+static void span_pictures(const WeftScene *scene, int k, const MaterialFile *file, Material *material) {
+    for (int input = 0; input < INPUT_COUNT; input++) {
+        const float *span = file->span[input];
+        Input *to = &material->inputs[input];
+        if (!(span[0] > 0.0f && span[1] > 0.0f) || !to->texture || file->keep[input]) continue;
+        const double metres = cloth_uv_metres(scene, k, to->texcoord, NULL);
+        for (int c = 0; c < 6 && metres > 0.0; c++) to->transform[c] *= (float)(metres / (double)span[c / 3]);
     }
 }
 
@@ -115,14 +116,22 @@ bool *materials_matching(WeftScene *scene, const char *material, WeftError *erro
     return NULL;
 }
 
+/* Puts the material of the file on material k, with its back. */
+static void put_on_one(WeftScene *scene, int k, const MaterialFile *file) {
+    const Material old = scene->materials[k];
+    scene->materials[k] = assigned(&old, file);
+    span_pictures(scene, k, file, &scene->materials[k]);
+    Material back = file->back ? assigned(&old, file->back) : old;
+    if (file->back) span_pictures(scene, k, file->back, &back);
+    back_give(scene, k, file->back ? &back : NULL);
+}
+
 static WeftResult put_on_selected(WeftScene *scene, const bool *selected, MaterialFile *file, WeftError *error) {
-    if (!adopt_textures(scene, file) || !adopt_cloth(scene, file, selected) || !adopt_measured(scene, file))
-        return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    bool adopted = adopt_textures(scene, file) && adopt_cloth(scene, file, selected) && adopt_measured(scene, file);
+    if (file->back) adopted = adopted && adopt_textures(scene, file->back) && adopt_measured(scene, file->back);
+    if (!adopted) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene_own_materials(scene); k++)
-        if (selected[k]) {
-            scene->materials[k] = assigned(&scene->materials[k], file);
-            span_pictures(scene, k, file);
-        }
+        if (selected[k]) put_on_one(scene, k, file);
     WeftResult result = cloths_fit(scene, false, error);
     return result == WEFT_OK ? materials_complete(scene, error) : result;
 }

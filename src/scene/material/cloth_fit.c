@@ -3,6 +3,7 @@
 #include <math.h> /* the dialect has sqrt() and log() of floats; in parentheses they are those of doubles */
 
 #include "base/fail.h"
+#include "scene/material/backs.h"
 #include "scene/material/hair.h"
 #include "scene/material/relief.h"
 #include "weave/weft_cloth.h"
@@ -102,6 +103,7 @@ WeftResult cloths_fit(WeftScene *scene, bool fresh, WeftError *error) {
         WeftResult result = cloth_put(scene, k, fitted, error);
         if (result != WEFT_OK) return result;
     }
-    const WeftResult result = reliefs_fit(scene, error);
+    WeftResult result = reliefs_fit(scene, error);
+    if (result == WEFT_OK) result = backs_fit(scene, error);
     return result == WEFT_OK ? hairs_fit(scene, error) : result;
 }

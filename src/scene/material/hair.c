@@ -253,10 +253,11 @@ static bool is_grown(const WeftScene *scene, const Hair *hairs, int count) {
  * them, move. Returns false if memory is short. */
 static bool make_room(WeftScene *scene, int count) {
     const size_t meshes = (size_t)scene_own_meshes(scene), materials = (size_t)scene_own_materials(scene),
-                 lights = (size_t)scene->polygon_light_capacity, room = (size_t)count;
+                 lights = (size_t)scene->polygon_light_capacity, room = (size_t)count,
+                 backs = (size_t)scene->back_count;
     if (count == scene->hair_count) return true;
     Mesh *all_meshes = arena_array(&scene->arena, meshes + room + lights, sizeof *all_meshes);
-    Material *all_materials = arena_array(&scene->arena, materials + room + lights, sizeof *all_materials);
+    Material *all_materials = arena_array(&scene->arena, materials + room + lights + backs, sizeof *all_materials);
     if (!all_meshes || !all_materials) return false;
     memcpy(all_meshes, scene->meshes, meshes * sizeof *all_meshes);
     memcpy(all_materials, scene->materials, materials * sizeof *all_materials);
@@ -265,6 +266,8 @@ static bool make_room(WeftScene *scene, int count) {
         memcpy(all_materials + materials + room, scene->materials + scene_light_materials(scene),
                (size_t)scene->polygon_light_count * sizeof *all_materials);
     }
+    memcpy(all_materials + materials + room + (size_t)scene->polygon_light_count,
+           scene->materials + scene->material_count, backs * sizeof *all_materials);
     for (int k = 0; k < scene->polygon_light_count; k++)
         all_meshes[meshes + room + (size_t)k].material = (int)(materials + room) + k;
     scene->mesh_count += count - scene->hair_count;
@@ -343,14 +346,16 @@ WeftResult hairs_fit(WeftScene *scene, WeftError *error) {
 
 bool hairs_left_out(const WeftScene *scene, Arena *arena, WeftScene *out) {
     const size_t meshes = (size_t)scene_own_meshes(scene), materials = (size_t)scene_own_materials(scene),
-                 lights = (size_t)scene->polygon_light_count;
+                 lights = (size_t)scene->polygon_light_count, backs = (size_t)scene->back_count;
     *out = *scene;
     if (!scene->hair_count) return true;
     out->meshes = arena_array(arena, meshes + lights, sizeof *out->meshes);
-    out->materials = arena_array(arena, materials + lights, sizeof *out->materials);
+    out->materials = arena_array(arena, materials + lights + backs, sizeof *out->materials);
     if (!out->meshes || !out->materials) return false;
     memcpy(out->meshes, scene->meshes, meshes * sizeof *out->meshes);
     memcpy(out->materials, scene->materials, materials * sizeof *out->materials);
+    memcpy(out->materials + materials + lights, scene->materials + scene->material_count,
+           backs * sizeof *out->materials);
     for (size_t k = 0; k < lights; k++) {
         out->meshes[meshes + k] = scene->meshes[(size_t)scene_light_meshes(scene) + k];
         out->materials[materials + k] = scene->materials[(size_t)scene_light_materials(scene) + k];

@@ -284,8 +284,27 @@ static float cutoff(const Reader *r, float value) {
     return 0.0f;
 }
 
+static void read_object(Reader *r, json_t *root);
+
+/* Reads the back of a material, a material too. */
+static void read_back(Reader *r, json_t *json) {
+    Reader back = *r;
+    if (!json_is_object(json)) refuse_value(r, json, "expected a material");
+    if (json_object_get(json, "back")) refuse(r, "a back has none of its own");
+    if (json_object_get(json, "weave")) refuse(r, "weave: the back of a weave is its other face");
+    if (r->result != WEFT_OK || r->out->back) return;
+    back.out = r->out->back = malloc(sizeof *back.out);
+    if (!back.out) {
+        r->result = fail(r->error, WEFT_MESSAGE_MEMORY, r->name, NULL);
+        return;
+    }
+    *back.out = (MaterialFile){.material = material_default()};
+    read_object(&back, json);
+    r->result = back.result;
+}
+
 /* Reads the members of a material that are neither inputs nor choices. */
-static void read_rest(Reader *r, const json_t *json) {
+static void read_rest(Reader *r, json_t *json) {
     static const char *const modes[] = {"opaque", "mask", "blend", NULL}; /* as WeftAlphaMode */
     MaterialFile *out = r->out;
     const char *key = r->key;
@@ -313,6 +332,8 @@ static void read_rest(Reader *r, const json_t *json) {
         if (!out->cloth) r->result = cloth_from_json(json, &source, &out->cloth);
     } else if (strcmp(key, "measured") == 0) {
         read_measured(r, json);
+    } else if (strcmp(key, "back") == 0) {
+        read_back(r, json);
     } else if (strcmp(key, "unlit") == 0) {
         if (!json_is_boolean(json)) refuse_value(r, json, "expected true or false");
         out->material.unlit = json_is_true(json);
@@ -380,5 +401,7 @@ void material_file_free(MaterialFile *file) {
     }
     weft_cloth_free(file->cloth);
     scene_measured_free(file->measured);
+    if (file->back) material_file_free(file->back);
+    free(file->back);
     *file = (MaterialFile){0};
 }

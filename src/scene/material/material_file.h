@@ -18,6 +18,7 @@ typedef struct MaterialFile {
     bool has_constants;             /* the file gives these; otherwise the factor of the texture stands for it */
     WeftCloth *cloth;               /* owned; NULL: none */
     Measured *measured;             /* owned; NULL: none */
+    struct MaterialFile *back;      /* what is seen from behind, with no cloth and no back; owned; NULL: the same */
 } MaterialFile;
 
 /* Reads size bytes of JSON. name is the subject of errors and warnings; folder ("" or with a slash at its end) that of

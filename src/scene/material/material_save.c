@@ -25,7 +25,8 @@ typedef struct Writer {
     WeftError *error;
     WeftResult result;
     Arena arena;
-    json_t *root;
+    json_t *root;                   /* the material, or its back */
+    const char *part;               /* between the names of the file and of an input: "-", of a back "-back-" */
     const char *files[INPUT_COUNT]; /* files with an input's texture, as the material file names them */
 } Writer;
 
@@ -104,13 +105,13 @@ static const char *write_picture(Writer *w, const WeftImage *image, InputId id) 
     const char *dot = strrchr(w->path, '.'), *slash = strrchr(w->path, '/');
     int stem = dot && (!slash || dot > slash) ? (int)(dot - w->path) : (int)strlen(w->path);
     const char *name = input_infos[id].name, *suffix = image->type == WEFT_PIXEL_F32 ? "npy" : "png";
-    size_t size = (size_t)stem + strlen(name) + 8;
+    size_t size = (size_t)stem + strlen(w->part) + strlen(name) + 8;
     char *path = arena_array(&w->arena, size, 1);
     if (!path) {
         no_memory(w);
         return NULL;
     }
-    snprintf(path, size, "%.*s-%s.%s", stem, w->path, name, suffix);
+    snprintf(path, size, "%.*s%s%s.%s", stem, w->path, w->part, name, suffix);
     WeftResult result = weft_image_write_as(path, image, &(WeftImageWriting){.data = 1}, w->error);
     if (w->result == WEFT_OK) w->result = result;
     return slash ? path + (slash + 1 - w->path) : path;
@@ -219,6 +220,20 @@ static void write_rest(Writer *w, const Material *material) {
     put(w, w->root, "double_sided", json_boolean(material->double_sided));
 }
 
+/* Writes a back that was given; that of a weave follows from it. */
+static void write_back(Writer *w, int material) {
+    const WeftScene *scene = w->scene;
+    json_t *front = w->root, *back;
+    if (material >= scene->back_count || scene->backs[material] != BACK_GIVEN) return;
+    back = json_object();
+    w->root = back;
+    w->part = "-back-";
+    memset(w->files, 0, sizeof w->files);
+    write_inputs(w, &scene->materials[scene->material_count + material]);
+    w->root = front;
+    put(w, front, "back", back);
+}
+
 static void write_file(Writer *w) {
     char *text = json_dumps(w->root, JSON_INDENT(4) | JSON_REAL_PRECISION(9));
     OutputFile file;
@@ -237,10 +252,11 @@ WeftResult weft_scene_save_material(const WeftScene *scene, int index, const cha
         snprintf(text, sizeof text, "%d", index);
         return fail(error, WEFT_MESSAGE_MATERIAL_NAME, text, "%s", scene_names(scene, weft_scene_material_name, names));
     }
-    Writer writer = {.scene = scene, .path = path, .error = error, .root = json_object()};
+    Writer writer = {.scene = scene, .path = path, .error = error, .root = json_object(), .part = "-"};
     const Material given = relief_given(scene, index);
     write_inputs(&writer, &given);
     write_rest(&writer, &given);
+    write_back(&writer, index);
     if (writer.result == WEFT_OK) write_file(&writer);
     json_decref(writer.root);
     arena_free(&writer.arena);

@@ -1,4 +1,5 @@
 #include "scene/material/relief.h"
+#include "scene/material/backs.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -202,9 +203,10 @@ void reliefs_renew(WeftScene *scene, int image) {
 }
 
 WeftResult materials_complete(WeftScene *scene, WeftError *error) {
-    const WeftResult result = reliefs_fit(scene, error);
-    const WeftResult whole = result == WEFT_OK ? tangents_complete(scene, error) : result;
-    return whole == WEFT_OK ? hairs_fit(scene, error) : whole;
+    WeftResult result = reliefs_fit(scene, error);
+    if (result == WEFT_OK) result = backs_fit(scene, error);
+    if (result == WEFT_OK) result = tangents_complete(scene, error);
+    return result == WEFT_OK ? hairs_fit(scene, error) : result;
 }
 
 Material relief_given(const WeftScene *scene, int material) {

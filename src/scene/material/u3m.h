@@ -4,10 +4,12 @@
 #pragma once
 
 #include "scene/material/material_file.h"
+#include "scene/material/u3m_archive.h"
 
 /* The files that a U3M names. */
 typedef struct U3mFiles {
-    const char *folder; /* "" or with a slash at its end; NULL: textures are refused */
+    const char *folder;  /* of the .u3m, "" or with a slash at its end; NULL: textures are refused */
+    U3mArchive *archive; /* with that folder; NULL: the folder is one of the disk */
 } U3mFiles;
 
 /* Reads size bytes of JSON as a material of workflow disney. name is the subject of errors and warnings. A texture that

@@ -9,15 +9,17 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "base/mark.h"
+#include "base/path.h"
 #include "base/pi.h"
 #include "image/srgb.h"
 #include "scene/material/set.h"
 #include "scene/material/u3m.h"
 #include "scene/material/u3m_fields.h"
 #include "scene/material/u3m_texture.h"
+#include "scene/material/u3m_weave.h"
 #include "shading/material/choice.h"
 
-enum { U3M_BYTES_MOST = 64 << 20, TEXTS = 256 };
+enum { U3M_BYTES_MOST = 64 << 20, U3MA_BYTES_MOST = 1 << 30, TEXTS = 256 };
 
 /* A file being read. The first failure stays. */
 typedef struct U3mReader {
@@ -27,6 +29,7 @@ typedef struct U3mReader {
     const WeftLog *log;
     WeftError *error;
     WeftResult result;
+    bool textured;       /* the part that is read names a picture, whether or not there is one */
     char unshown[TEXTS]; /* members that no input shows, and that say something */
     char lacking[TEXTS]; /* members that the schema demands */
 } U3mReader;
@@ -74,18 +77,15 @@ static void color(U3mReader *r, const json_t *json, const char *what, float line
         linear[c] = srgb_decode(number(r, json_object_get(json, names[c]), names[c], 0.0, 1.0));
 }
 
-/* Returns true for a path that stays in the folder of the file, as the specification demands: relative, with slashes,
- * without . and .. and characters that some system takes for more than a name. */
-static bool is_inside(const char *path) {
-    if (!path[0] || strlen(path) > 4096) return false;
-    for (const char *part = path; part; part = strchr(part, '/') ? strchr(part, '/') + 1 : NULL) {
-        const size_t length = strcspn(part, "/");
-        if (length == 0 || length > 255 || (length <= 2 && strspn(part, ".") >= length)) return false;
-        if (length == 1 && part[0] == '~') return false;
-    }
-    for (const char *p = path; *p; p++)
-        if ((unsigned char)*p < 0x20 || strchr("<>:\"\\|", *p)) return false;
-    return true;
+/* Reads the pixels of a file at that path, in the archive if there is one. */
+static WeftResult read_pixels(const U3mReader *r, const char *path, WeftImage *image, WeftError *error) {
+    FileBytes bytes;
+    U3mArchive *archive = r->files->archive;
+    if (!archive) return weft_image_read(path, image, r->log, error);
+    WeftResult result = u3m_archive_read(archive, path, &bytes, error);
+    if (result == WEFT_OK) result = weft_image_read_memory(bytes.data, bytes.size, path, image, r->log, error);
+    free(bytes.data);
+    return result;
 }
 
 /* Returns the index of an image that is read from its file, or -1 with a warning where it cannot be read. */
@@ -100,7 +100,7 @@ static int read_image(U3mReader *r, const char *file) {
     snprintf(path, size, "%s%s", r->files->folder, file);
     WeftError why;
     WeftImage image = {0};
-    const WeftResult result = weft_image_read(path, &image, r->log, &why);
+    const WeftResult result = read_pixels(r, path, &image, &why);
     if (result != WEFT_OK) {
         char place[96];
         free(path);
@@ -112,7 +112,8 @@ static int read_image(U3mReader *r, const char *file) {
         return -1;
     }
     out->images[out->image_count] = image; /* never full: at most one image an input */
-    out->paths[out->image_count] = path;
+    out->paths[out->image_count] = r->files->archive ? NULL : path;
+    if (r->files->archive) free(path);
     return out->image_count++;
 }
 
@@ -203,7 +204,7 @@ static void read_texture(U3mReader *r, const U3mField *field, const json_t *text
     float value[3] = {1.0f, 1.0f, 1.0f};
     if (!json_is_object(image)) refuse(r, image, "a texture must have an image");
     if (r->result == WEFT_OK && !file) refuse(r, json_object_get(image, "path"), "an image must have a path");
-    if (r->result == WEFT_OK && !is_inside(file))
+    if (r->result == WEFT_OK && !u3m_path_inside(file))
         refuse(r, json_object_get(image, "path"), "the path must be relative and stay in the folder of the file");
     if (r->result == WEFT_OK && !r->files->folder) refuse(r, NULL, "a texture needs a file to lie beside");
     if (r->result != WEFT_OK) return;
@@ -272,6 +273,7 @@ static void read_field(U3mReader *r, const U3mField *field, const json_t *visual
     if (r->result != WEFT_OK) return;
     if (field->input >= 0) {
         set_input(r, field, v);
+        r->textured |= json_is_object(texture);
         if (json_is_object(texture)) read_texture(r, field, texture);
     } else if (would_show(field, visual, v, json_is_object(texture))) {
         list(r->unshown, field->name);
@@ -312,9 +314,35 @@ static void read_visual(U3mReader *r, const char *side, json_t *visual) {
     if (strange[0]) warn(r->log, WEFT_MESSAGE_GLTF_WARN_IGNORED, r->name, "%s: not in the schema: %s", side, strange);
 }
 
+static Material principled(void) {
+    Material material = material_default();
+    material_choose(&material, CHOICE_workflow, choice_find(CHOICE_workflow, "disney"));
+    material.double_sided = true;
+    return material;
+}
+
+static MaterialFile empty(void) {
+    return (MaterialFile){.material = principled(), .alpha_named = true, .sided_named = true, .has_constants = true};
+}
+
+/* Reads the back of a material that has a front. */
+static void read_back(U3mReader *r, json_t *visual) {
+    U3mReader back = *r;
+    back.unshown[0] = back.lacking[0] = '\0';
+    back.out = r->out->back = malloc(sizeof *back.out);
+    if (!back.out) {
+        r->result = fail(r->error, WEFT_MESSAGE_MEMORY, r->name, NULL);
+        return;
+    }
+    *back.out = empty();
+    read_visual(&back, "back", visual);
+    r->result = back.result;
+}
+
 /* Reads the visual part that is the front: where there is none the back, else the side. */
 static void read_material(U3mReader *r, const json_t *material) {
     static const char *const sides[] = {"front", "back", "side"};
+    json_t *behind = json_object_get(material, "back");
     for (int k = 0; k < 3; k++) {
         json_t *visual = json_object_get(material, sides[k]);
         r->key = sides[k];
@@ -323,6 +351,9 @@ static void read_material(U3mReader *r, const json_t *material) {
             read_visual(r, sides[k], visual);
         else
             refuse(r, visual, "expected an object or null");
+        if (r->result == WEFT_OK && visual != behind && json_is_object(behind)) read_back(r, behind);
+        if (r->result == WEFT_OK && !r->textured)
+            r->result = u3m_weave(json_object_get(material, "physics"), r->name, r->out, r->log, r->error);
         return;
     }
     r->key = "";
@@ -342,16 +373,9 @@ static void read_root(U3mReader *r, const json_t *root) {
     if (r->result == WEFT_OK) read_material(r, material);
 }
 
-static Material principled(void) {
-    Material material = material_default();
-    material_choose(&material, CHOICE_workflow, choice_find(CHOICE_workflow, "disney"));
-    material.double_sided = true;
-    return material;
-}
-
 WeftResult u3m_read(const void *data, size_t size, const char *name, const U3mFiles *files, MaterialFile *out,
                     const WeftLog *log, WeftError *error) {
-    *out = (MaterialFile){.material = principled(), .alpha_named = true, .sided_named = true, .has_constants = true};
+    *out = empty();
     U3mReader reader = {.name = name, .side = "", .key = "", .files = files, .out = out, .log = log, .error = error};
     const char *text = data;
     const size_t mark = mark_size(text, size);
@@ -370,16 +394,45 @@ WeftResult u3m_read(const void *data, size_t size, const char *name, const U3mFi
     return reader.result;
 }
 
+/* Returns the folder of a path with its slash, or "". The caller frees it; NULL if memory is short. */
+static char *folder_of(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return strndup(path, slash ? (size_t)(slash + 1 - path) : 0);
+}
+
+/* Reads the JSON of a file that lies at `at`, on the disk or in the archive. */
+static WeftResult read_at(const FileBytes *bytes, const char *path, const char *at, U3mArchive *archive,
+                          MaterialFile *out, const WeftLog *log, WeftError *error) {
+    char *folder = folder_of(at);
+    if (!folder) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    const WeftResult result = u3m_read(bytes->data, bytes->size, path, &(U3mFiles){folder, archive}, out, log, error);
+    free(folder);
+    return result;
+}
+
+static WeftResult load_archive(const FileBytes *zip, const char *path, MaterialFile *out, const WeftLog *log,
+                               WeftError *error) {
+    U3mArchive *archive;
+    FileBytes bytes = {0};
+    WeftResult result = u3m_archive_open(zip->data, zip->size, path, &archive, error);
+    if (result != WEFT_OK) return result;
+    const char *material = u3m_archive_material(archive);
+    result = u3m_archive_read(archive, material, &bytes, error);
+    if (result == WEFT_OK && bytes.size > U3M_BYTES_MOST)
+        result = fail(error, WEFT_MESSAGE_FILE_LARGE, path, "%s", material);
+    if (result == WEFT_OK) result = read_at(&bytes, path, material, archive, out, log, error);
+    free(bytes.data);
+    u3m_archive_close(archive);
+    return result;
+}
+
 WeftResult u3m_load(const char *path, MaterialFile *out, const WeftLog *log, WeftError *error) {
+    const bool packed = path_ends(path, ".u3ma");
     FileBytes bytes;
     *out = (MaterialFile){0};
-    WeftResult result = file_read(path, U3M_BYTES_MOST, &bytes, error);
+    WeftResult result = file_read(path, packed ? U3MA_BYTES_MOST : U3M_BYTES_MOST, &bytes, error);
     if (result != WEFT_OK) return result;
-    char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
-    if (folder) *(slash ? slash + 1 : folder) = '\0';
-    result = folder ? u3m_read(bytes.data, bytes.size, path, &(U3mFiles){folder}, out, log, error)
-                    : fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
-    free(folder);
+    result = packed ? load_archive(&bytes, path, out, log, error) : read_at(&bytes, path, path, NULL, out, log, error);
     free(bytes.data);
     return result;
 }

@@ -64,8 +64,8 @@ typedef struct Light {
     float cos_inner, cos_outer; /* spot: full inside the inner cone, none outside the outer */
 } Light;
 
-/* A light that is a flat mesh. The scene's last meshes and materials are those of its polygon lights, in their order,
- * which light_list.c maintains. */
+/* A light that is a flat mesh. The scene's last meshes are those of its polygon lights, and behind its own materials
+ * come theirs, in their order, which light_list.c maintains. */
 typedef struct PolygonLight {
     WeftLight light; /* as it was given, its defaults filled in */
     int place;       /* among all lights as callers count them; punctual ones fill the places between */
@@ -93,14 +93,18 @@ typedef struct Environment {
     unsigned version; /* counts changes of image or colour */
 } Environment;
 
+/* The look of a material from behind: the same, unless it is woven or has a back of its own
+ * (scene/material/backs.h). */
+typedef enum MaterialBack { BACK_SAME = 0, BACK_WOVEN, BACK_GIVEN } MaterialBack;
+
 struct WeftScene {
     Arena arena; /* everything below but the pixels of images */
     SrgbTable srgb;
     const char *name;
     WeftImage *images;
     Texture *textures;
-    Material *materials;
-    WeftCloth **cloths; /* owned; NULL without any */
+    Material *materials; /* the scene's own, its polygon lights', and then the backs of its own */
+    WeftCloth **cloths;  /* owned; NULL without any */
     int cloth_count;
     Measured **measured; /* owned; NULL without any */
     int measured_count;
@@ -111,6 +115,8 @@ struct WeftScene {
     const char **variants;
     int variant; /* number of the active variant, counted from 1; 0: none */
     int image_count, texture_count, material_count, mesh_count, light_count, camera_count, variant_count;
+    int back_count;      /* 0, or one for each own material, which material_count leaves out */
+    MaterialBack *backs; /* of own materials; NULL without places */
     int light_capacity, polygon_light_count, polygon_light_capacity; /* capacity: entries that a list has memory for */
     PolygonLight *polygon_lights;
     Hair *hairs;    /* owned, as are the vertices of its meshes; NULL without any */
@@ -145,6 +151,19 @@ static inline float scene_hair_reach(const WeftScene *scene) {
     for (int k = 0; k < scene->hair_count; k++) reach = fmaxf(reach, scene->hairs[k].numbers[WEFT_HAIR_LENGTH]);
     return reach;
 }
+/* Returns the count of materials with backs, which is what renderers prepare. */
+static inline int scene_shaded_materials(const WeftScene *scene) { return scene->material_count + scene->back_count; }
+
+/* Returns the index of the material that is seen of a material from behind, or -1: the same, or nothing. */
+static inline int scene_back(const WeftScene *scene, int material) {
+    const bool other =
+        material < scene->back_count && scene->backs[material] != BACK_SAME && scene->materials[material].double_sided;
+    return other ? scene->material_count + material : -1;
+}
+
+/* Returns the cloth of a material, or NULL. The back of a woven one has the number of the cloth below 0: its other
+ * face. */
+const WeftCloth *scene_cloth_of(const WeftScene *scene, const Material *material);
 
 /* Returns an empty scene with the studio environment, or NULL if memory is short. */
 WeftScene *scene_create(const char *name);

@@ -69,7 +69,9 @@ static bool mesh_tangents(WeftScene *scene, Mesh *mesh, const Input *input) {
 WeftResult tangents_complete(WeftScene *scene, WeftError *error) {
     for (int m = 0; m < scene->mesh_count; m++) {
         Mesh *mesh = &scene->meshes[m];
+        const int back = scene_back(scene, mesh->material);
         const Input *input = tangents_input(&scene->materials[mesh->material]);
+        if (!input && back >= 0) input = tangents_input(&scene->materials[back]);
         if (!input || mesh->tangent || !tangents_possible(mesh, input)) continue;
         if (!mesh_tangents(scene, mesh, input)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }

@@ -84,7 +84,7 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
     sheen_tables_free_but(render->tables, tables);
     render->tables = tables;
     free(render->materials);
-    render->material_count = scene->material_count;
+    render->material_count = scene_shaded_materials(scene);
     render->materials = path_materials_create(scene, tables);
     return render->materials ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
 }
@@ -103,7 +103,7 @@ static WeftResult make_streams(WeftRender *render, WeftError *error) {
     free_streams(render);
     render->streams = alloc_array((size_t)wanted, sizeof(Stream *));
     for (int k = 0; render->streams && k < wanted; k++) {
-        render->streams[k] = stream_create(&render->picture.context, render->scene->material_count);
+        render->streams[k] = stream_create(&render->picture.context, scene_shaded_materials(render->scene));
         if (!render->streams[k]) break;
         render->stream_count++;
     }
@@ -208,7 +208,7 @@ static void set_context(WeftRender *render) {
 /* Rebuilds what `changed` concerns, and what an earlier call failed to make. A changed material rebuilds the lights if
  * it emits or did, and the geometry if its filter of hits differs. */
 static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) {
-    if (!render->materials || render->material_count != render->scene->material_count) changed = ~0u;
+    if (!render->materials || render->material_count != scene_shaded_materials(render->scene)) changed = ~0u;
     bool shapes = changed & WEFT_CHANGED_SHAPES || !render->geometry || !geometry_serves(render->geometry);
     bool lights =
         changed & (WEFT_CHANGED_SHAPES | WEFT_CHANGED_LIGHTS) || !render->lights || (changed && any_emits(render));

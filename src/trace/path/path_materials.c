@@ -30,7 +30,7 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
         prepared->textured |= of->texture != 0;
         prepared->texcoords[of->texcoord] |= of->texture != 0;
     }
-    prepared->cloth = material->cloth ? scene->cloths[material->cloth - 1] : NULL;
+    prepared->cloth = scene_cloth_of(scene, material);
     prepared->textured |= prepared->cloth != NULL;
     prepared->texcoords[0] |= prepared->cloth != NULL;
     prepared->sheen_e = sheen_e;
@@ -51,16 +51,20 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
                                prepared->untextured.anisotropy > 0.0f;
 }
 
+/* Lets a material's base colour be multiplied by those of vertices. */
+static void color(PathMaterial *prepared) { prepared->colored = prepared->textured = true; }
+
 PathMaterial *path_materials_create(const WeftScene *scene, const SheenTables *tables) {
-    size_t count = (size_t)scene->material_count;
+    size_t count = (size_t)scene_shaded_materials(scene);
     PathMaterial *materials = alloc_array(count, sizeof(PathMaterial));
     if (!materials) return NULL;
     for (size_t k = 0; k < count; k++)
         prepare(scene, &scene->materials[k], sheen_tables_of(tables, (int)k), &materials[k]);
     for (int k = 0; k < scene->mesh_count; k++) {
-        PathMaterial *prepared = &materials[scene->meshes[k].material];
-        prepared->colored |= scene->meshes[k].color != NULL;
-        prepared->textured |= prepared->colored;
+        const int front = scene->meshes[k].material, back = scene_back(scene, front);
+        if (!scene->meshes[k].color) continue;
+        color(&materials[front]);
+        if (back >= 0) color(&materials[back]);
     }
     return materials;
 }

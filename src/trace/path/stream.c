@@ -34,27 +34,40 @@ HitRows stream_hits(Stream *stream) {
     return (HitRows){stream->t, stream->u, stream->v, stream->mesh, stream->triangle};
 }
 
-/* Returns the class of path k: 0 if its ray hits nothing, else 1 + the material. */
-static int class_of(const Stream *stream, int k) {
-    uint32_t mesh = stream->mesh[k];
-    return mesh == GEOMETRY_NOTHING ? 0 : 1 + stream->context->scene->meshes[mesh].material;
+/* Returns true if path k hits its triangle from behind. */
+static bool hits_back(const Stream *stream, const Paths *paths, int k) {
+    const Mesh *mesh = &stream->context->scene->meshes[stream->mesh[k]];
+    const uint32_t *index = mesh->index + 3 * (size_t)stream->triangle[k];
+    Vec3 p[3];
+    for (int corner = 0; corner < 3; corner++) p[corner] = vec3_load(mesh->position + 3 * (size_t)index[corner]);
+    const Vec3 winding = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
+    return vec3_dot(winding, vec3(paths->direction[0][k], paths->direction[1][k], paths->direction[2][k])) > 0.0f;
+}
+
+/* Returns the class of path k: 0 if its ray hits nothing, else 1 + the material of the side that it hits. */
+static int class_of(const Stream *stream, const Paths *paths, int k) {
+    const WeftScene *scene = stream->context->scene;
+    const uint32_t mesh = stream->mesh[k];
+    if (mesh == GEOMETRY_NOTHING) return 0;
+    const int front = scene->meshes[mesh].material, back = scene_back(scene, front);
+    return 1 + (back >= 0 && hits_back(stream, paths, k) ? back : front);
 }
 
 /* Sorts n paths by their classes into `order`, without paths that have ended (their mesh is STREAM_DONE). Each class
  * begins at a multiple of ROW_LANES, the width of a vector, and its last path is repeated up to the next multiple.
  * end[c] becomes the end of class c, before these copies. */
-static void sort_by_class(Stream *stream, int n, int classes) {
+static void sort_by_class(Stream *stream, const Paths *paths, int n, int classes) {
     int *end = stream->end, place = 0;
     for (int hit_class = 0; hit_class < classes; hit_class++) end[hit_class] = 0;
     for (int k = 0; k < n; k++)
-        if (stream->mesh[k] != STREAM_DONE) end[class_of(stream, k)]++;
+        if (stream->mesh[k] != STREAM_DONE) end[class_of(stream, paths, k)]++;
     for (int hit_class = 0; hit_class < classes; hit_class++) {
         int count = end[hit_class];
         end[hit_class] = place;
         place += row_whole(count);
     }
     for (int k = 0; k < n; k++)
-        if (stream->mesh[k] != STREAM_DONE) stream->order[end[class_of(stream, k)]++] = k;
+        if (stream->mesh[k] != STREAM_DONE) stream->order[end[class_of(stream, paths, k)]++] = k;
     for (int hit_class = 0; hit_class < classes; hit_class++)
         for (int k = end[hit_class]; k % ROW_LANES; k++) stream->order[k] = stream->order[k - 1];
     stage_end(stream->chunk.clock, STAGE_SORT);
@@ -184,14 +197,14 @@ static int shade_hits(Stream *stream, const Paths *paths, int depth, int classes
 }
 
 void stream_follow(Stream *stream, int n) {
-    int classes = stream->context->scene->material_count + 1;
+    int classes = scene_shaded_materials(stream->context->scene) + 1;
     stream->chunk.filled_material = 0; /* the chunk has the inputs of no material */
     if (stream->slots) slot_light_begin(stream->slots);
     for (int depth = 0; n > 0; depth++) {
         const Paths *paths = &stream->paths[depth % 2];
         Paths *next = &stream->paths[(depth + 1) % 2];
         if (depth > 0) trace(stream, paths, n);
-        sort_by_class(stream, n, classes);
+        sort_by_class(stream, paths, n, classes);
         add_misses(stream, paths, depth, classes);
         n = shade_hits(stream, paths, depth, classes, next);
         if (stream->slots && depth == 0) slot_light_note(stream->slots, &stream->radiance);
