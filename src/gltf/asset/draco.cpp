@@ -23,19 +23,19 @@ struct DracoMesh {
 namespace {
 
 /* Upper bounds of what the library holds for a triangle, and for a triangle and an attribute with seams. */
-constexpr size_t TRIANGLE = 128, SEAMS = 64;
+constexpr size_t TRIANGLE = 64, SEAMS = 32;
 
 /* How many bytes a decoder may still take. */
 struct Allowance {
     size_t left;
     bool exceeded;
-
-    bool take(size_t count, size_t size) {
-        exceeded = exceeded || (size > 0 && count > left / size);
-        if (!exceeded) left -= count * size;
-        return !exceeded;
-    }
 };
+
+bool take(Allowance *allowance, size_t count, size_t size) {
+    allowance->exceeded = allowance->exceeded || (size > 0 && count > allowance->left / size);
+    if (!allowance->exceeded) allowance->left -= count * size;
+    return !allowance->exceeded;
+}
 
 /* A decoder of the library's that looks at the numbers of a stream before memory is allocated for them. */
 template <class Decoder> class Careful : public Decoder {
@@ -52,7 +52,7 @@ template <class Decoder> class Careful : public Decoder {
             const draco::PointAttribute *attribute = cloud->attribute(k);
             const int32_t width = draco::DataTypeLength(attribute->data_type());
             const size_t bytes = width > 0 ? static_cast<size_t>(width) : 8;
-            if (!allowance_->take(cloud->num_points(), (bytes + 8) * attribute->num_components() + 8)) return false;
+            if (!take(allowance_, cloud->num_points(), (bytes + 8) * attribute->num_components() + 8)) return false;
         }
         return Decoder::DecodeAllAttributes();
     }
@@ -68,15 +68,15 @@ template <> bool Careful<draco::MeshEdgebreakerDecoder>::connectivity_fits() {
     uint32_t vertices = 0, triangles = 0;
     uint8_t attributes = 0;
     return draco::DecodeVarint(&vertices, &ahead) && draco::DecodeVarint(&triangles, &ahead) &&
-           ahead.Decode(&attributes) && allowance_->take(triangles, TRIANGLE + SEAMS * attributes) &&
-           allowance_->take(vertices, TRIANGLE);
+           ahead.Decode(&attributes) && take(allowance_, triangles, TRIANGLE + SEAMS * attributes) &&
+           take(allowance_, vertices, TRIANGLE);
 }
 
 template <> bool Careful<draco::MeshSequentialDecoder>::connectivity_fits() {
     draco::DecoderBuffer ahead = *this->buffer();
     uint32_t points = 0, triangles = 0;
     return draco::DecodeVarint(&triangles, &ahead) && draco::DecodeVarint(&points, &ahead) &&
-           allowance_->take(triangles, TRIANGLE) && allowance_->take(points, TRIANGLE);
+           take(allowance_, triangles, TRIANGLE) && take(allowance_, points, TRIANGLE);
 }
 
 template <class Decoder> bool decode(draco::DecoderBuffer *buffer, Allowance *allowance, draco::Mesh *mesh) {

@@ -83,11 +83,13 @@ static const char *accessors_make(Asset *asset, const DracoMesh *mesh, Primitive
 
 /* Decodes the primitive. Returns why not, or NULL, also after a sticky failure. */
 static const char *decode(Asset *asset, Primitive *p) {
+    const size_t most = (size_t)4 << 30, left = asset->limit - asset->spent,
+                 allowed = left < most / 2 ? 2 * left : most;
     const Span bytes = view_bytes(asset, p->draco->view);
     DracoMesh *mesh = NULL;
     const char *reason = NULL;
     if (!bytes.data) return NULL;
-    switch (draco_open(bytes.data, bytes.size, 2 * (asset->limit - asset->spent), &mesh)) {
+    switch (draco_open(bytes.data, bytes.size, allowed, &mesh)) {
     case DRACO_READ: reason = accessors_make(asset, mesh, p); break;
     case DRACO_VERSION: reason = "it is not Draco 2.2"; break;
     case DRACO_DAMAGED: reason = "damaged data"; break;
