@@ -110,7 +110,8 @@ const Verb verb_render = {
     .operands_most = EACH_MOST,
     .options = request_options,
     .notes = "SCENE is a .gltf or .glb file (glTF 2.0; docs/gltf.md has the limits),\n"
-             "builtin:NAME or a material .u3m on builtin:cloth. `weft models` lists all ids. --workflow, --profile, --diffuse,\n"
+             "builtin:NAME or a material .u3m on builtin:cloth. `weft models` lists all ids. --workflow, --profile, "
+             "--diffuse,\n"
              "--sheen, --layer and --set may have several values: then OUT is a sheet with a\n"
              "picture for each and, below, how it differs from the first. Numbers and ids have\n"
              "a comma between them, colours a semicolon, as in --set '*.sheen_color=1;1,0,0'.\n"
