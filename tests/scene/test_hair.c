@@ -223,10 +223,31 @@ static void hair_beyond_reason_is_refused(void **state) {
     weft_scene_free(scene);
 }
 
+/* A file with more hair than memory holds is read without it, and says so. */
+static void file_with_too_much_hair_is_read_bald(void **state) {
+    (void)state;
+    WeftScene *scene = square(), *again = NULL;
+    WeftError error;
+    int warnings = 0;
+    char path[SCRATCH_SIZE + 16];
+    scene->materials[0].hair[WEFT_HAIR_LENGTH] = 0.003f;
+    scene->materials[0].hair[WEFT_HAIR_DENSITY] = 1e12f;
+    snprintf(path, sizeof path, "%s/much.glb", folder);
+    if (weft_scene_save(scene, path, &error) != WEFT_OK) fail_msg("%s", error.text);
+    const WeftLog log = {count_warning, &warnings};
+    if (weft_scene_load(path, &again, &log, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(again->hair_count, 0);
+    assert_int_equal(warnings, 1);
+    weft_scene_free(again);
+    weft_scene_free(scene);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fibres_are_as_many_and_as_long_as_asked), cmocka_unit_test(holes_have_no_hair),
-        cmocka_unit_test(lights_come_and_go_beside_hair), cmocka_unit_test(saved_scene_has_the_hair_again),
-        cmocka_unit_test(hair_beyond_reason_is_refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(fibres_are_as_many_and_as_long_as_asked),
+                                       cmocka_unit_test(holes_have_no_hair),
+                                       cmocka_unit_test(lights_come_and_go_beside_hair),
+                                       cmocka_unit_test(saved_scene_has_the_hair_again),
+                                       cmocka_unit_test(hair_beyond_reason_is_refused),
+                                       cmocka_unit_test(file_with_too_much_hair_is_read_bald)};
     return cmocka_run_group_tests(tests, begin, end);
 }

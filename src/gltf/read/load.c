@@ -32,6 +32,19 @@ static WeftResult load_builtin(const char *path, Watcher watcher, WeftScene *sce
     return fail(error, WEFT_MESSAGE_SCENE_NAME, path, "available: %s%s", builtin_prefix, builtin_at(0)->name);
 }
 
+/* Fits cloths and hair to the meshes. Hair that is too much for a scene is left out with a warning. */
+static WeftResult fit(WeftScene *scene, const WeftLog *log, WeftError *error) {
+    WeftError said = {.result = WEFT_OK};
+    WeftResult result = cloths_fit(scene, true, &said);
+    if (result == WEFT_USAGE) {
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, scene->name, "its hair: %.160s", said.text);
+        for (int k = 0; k < scene_own_materials(scene); k++) scene->materials[k].hair[WEFT_HAIR_LENGTH] = 0.0f;
+        result = cloths_fit(scene, true, &said);
+    }
+    if (result != WEFT_OK && error) *error = said;
+    return result;
+}
+
 static WeftResult load(const char *path, const void *data, size_t size, Watcher watcher, WeftScene **out,
                        const WeftLog *log, WeftError *error) {
     *out = NULL;
@@ -47,7 +60,7 @@ static WeftResult load(const char *path, const void *data, size_t size, Watcher 
         scene_bounds(scene);
         environment_give_way(scene);
         result = backs_make(scene, error);
-        if (result == WEFT_OK) result = cloths_fit(scene, true, error);
+        if (result == WEFT_OK) result = fit(scene, log, error);
     }
     if (result == WEFT_OK && alone) result = weft_scene_assign_material(scene, NULL, path, log, error);
     if (result == WEFT_OK)
