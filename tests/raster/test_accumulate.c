@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "base/steady_clock.h"
 #include "raster/sums.h"
 
 enum { FRAMES = 256, SPP = 2048 };
@@ -188,12 +189,53 @@ static void begins_without_a_jump(void **state) {
     weft_scene_free(scene);
 }
 
+/* Whoever turns the camera while frames add up waits for the strip that is being drawn and then for one picture.
+ * The quickest of some turns counts, since other work may stop the others. */
+static void turning_is_answered_at_once(void **state) {
+    (void)state;
+    need_gl();
+    enum { TURNS = 5, WIDE = 640, HIGH = 420 };
+    WeftScene *scene = balls();
+    test_environment(scene, 1.0f);
+    WeftRaster *raster = raster_of(scene);
+    WeftError error;
+    WeftRasterView turned = {.width = WIDE, .height = HIGH, .background = WEFT_BACKGROUND_TRANSPARENT};
+    double quickest = 1e30, plain = 1e30;
+    for (int k = 0; k < TURNS; k++) {
+        char from[64], to[64];
+        int done = 0;
+        snprintf(from, sizeof from, "%g,1.3,3.4;0,0.1,0;26", 0.2 * k);
+        snprintf(to, sizeof to, "%g,1.3,3.4;0,0.1,0;26", 0.2 * k + 0.1);
+        turned.camera = from;
+        for (int again = 0; again < 2; again++) {
+            const double start = clock_now();
+            assert_int_equal(weft_raster_draw(raster, &turned, &error), WEFT_OK);
+            weft_raster_finish(raster);
+            plain = fmin(plain, clock_now() - start);
+        }
+        assert_int_equal(weft_raster_accumulate_begin(raster, &turned, 64, &error), WEFT_OK);
+        for (int strip = 0; strip < 8; strip++)
+            assert_int_equal(weft_raster_accumulate(raster, 0.0, &done, &error), WEFT_OK);
+        turned.camera = to;
+        const double start = clock_now();
+        assert_int_equal(weft_raster_accumulate(raster, 0.0, &done, &error),
+                         WEFT_OK); /* had begun when the turn came */
+        assert_int_equal(weft_raster_draw(raster, &turned, &error), WEFT_OK);
+        weft_raster_finish(raster);
+        quickest = fmin(quickest, clock_now() - start);
+    }
+    print_message("a picture takes %.0f ms, after a turn while frames add up %.0f ms\n", 1e3 * plain, 1e3 * quickest);
+    assert_true(quickest < 0.1 + 2.0 * plain);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(under_a_studio),        cmocka_unit_test(under_a_polygon),
         cmocka_unit_test(under_punctual_lights), cmocka_unit_test(half_transparent_and_single_sided),
         cmocka_unit_test(holes_of_a_map),        cmocka_unit_test(a_sum_in_pieces),
-        cmocka_unit_test(begins_without_a_jump),
+        cmocka_unit_test(begins_without_a_jump), cmocka_unit_test(turning_is_answered_at_once),
     };
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

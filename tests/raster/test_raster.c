@@ -326,6 +326,30 @@ static void steady_frames_create_no_objects(void **state) {
     weft_scene_free(scene);
 }
 
+static void steady_frames_of_a_sum_create_no_objects(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = under_a_lamp();
+    WeftRaster *raster = raster_of(scene, WEFT_GL_DESKTOP);
+    WeftError error;
+    int done = 0;
+    WeftRasterView view = front_view;
+    view.samples = 4;
+    draw(raster, &view);
+    COUNTED(COUNT)
+    made = 0;
+    assert_int_equal(weft_raster_accumulate_begin(raster, &view, 6, &error), WEFT_OK);
+    while (done < 1) assert_int_equal(weft_raster_accumulate(raster, 0.0, &done, &error), WEFT_OK);
+    const int first = made;
+    made = 0;
+    while (done < 6) assert_int_equal(weft_raster_accumulate(raster, 0.0, &done, &error), WEFT_OK);
+    COUNTED(STOP_COUNTING)
+    assert_true(first > 3);
+    assert_int_equal(made, 0);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
 static void raster_descriptors_without_sense_are_refused(void **state) {
     (void)state;
     need_gl();
@@ -451,6 +475,7 @@ int main(void) {
                                        cmocka_unit_test(facets_at_the_terminator_are_not_black),
                                        cmocka_unit_test(polygon_light_agrees_with_the_path_tracer),
                                        cmocka_unit_test(steady_frames_create_no_objects),
+                                       cmocka_unit_test(steady_frames_of_a_sum_create_no_objects),
                                        cmocka_unit_test(raster_descriptors_without_sense_are_refused),
                                        cmocka_unit_test(shaders_compile_as_their_version)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
