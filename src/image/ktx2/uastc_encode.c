@@ -7,7 +7,7 @@
 
 #include "image/ktx2/uastc_etc1.h"
 
-enum { AXIS_STEPS = 6, REFINEMENTS = 3, PATTERNS_TRIED = 3, WEIGHTS_MOST = 32, GOOD_ENOUGH = 8 };
+enum { AXIS_STEPS = 6, REFINEMENTS = 3, PATTERNS_TRIED = 2, WEIGHTS_MOST = 32, GOOD_ENOUGH = 48 };
 
 /* A block in the channels of a mode: luminance and alpha, or colours, or colours and alpha. */
 typedef struct ChannelValues {
