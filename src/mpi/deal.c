@@ -91,9 +91,10 @@ static size_t tile_size(const WeftRender *render) {
 }
 
 /* Ends all processes: nothing else can be done where memory is short or a render fails in one of them. */
-static void end_all(const char *text, int code) {
+_Noreturn static void end_all(const char *text, int code) {
     complain(text);
     MPI_Abort(MPI_COMM_WORLD, code);
+    exit(code);
 }
 
 /* Renders a block, and sends its sums. work: whether sums follow, then tiles. */
@@ -219,7 +220,7 @@ static void block_send(Deal *deal, int rank) {
     Block *block = &deal->blocks[rank];
     *block = block_next(deal, block->threads);
     int *work = calloc((size_t)block->count + 1, sizeof *work);
-    if (!work) MPI_Abort(MPI_COMM_WORLD, WEFT_RESOURCES);
+    if (!work) end_all("out of memory", WEFT_RESOURCES);
     work[0] = deal->earlier != NULL;
     memcpy(work + 1, deal->order + block->first, (size_t)block->count * sizeof *work);
     MPI_Send(work, 1 + block->count, MPI_INT, rank, TAG_WORK, MPI_COMM_WORLD);
@@ -244,7 +245,7 @@ static bool answer(Deal *deal) {
     } else {
         Arrived *arrived = calloc(1, sizeof *arrived);
         float *sums = calloc((size_t)block->count * deal->numbers, sizeof *sums);
-        if (!arrived || !sums) MPI_Abort(MPI_COMM_WORLD, WEFT_RESOURCES);
+        if (!arrived || !sums) end_all("out of memory", WEFT_RESOURCES);
         *arrived = (Arrived){.next = deal->arrived, .first = block->first, .count = block->count, .sums = sums};
         deal->arrived = arrived;
         MPI_Recv(sums, (int)((size_t)block->count * deal->numbers), MPI_FLOAT, rank, TAG_DONE, MPI_COMM_WORLD,

@@ -143,7 +143,8 @@ static int names_read(const char **at, char names[4][PART_NAME]) {
 static WeftResult layers_take(const PartFile *part, bool first, Job *job, WeftError *error) {
     size_t length = 0;
     const char *at = word_value(part->words, "layers", &length);
-    WeftResult result = at ? WEFT_OK : refuse(error, WEFT_INPUT, part->path, no_part);
+    WeftResult result = WEFT_OK;
+    if (!at) return refuse(error, WEFT_INPUT, part->path, no_part);
     for (int k = 0; result == WEFT_OK && *at && *at != ' '; k++) {
         char names[4][PART_NAME];
         WeftImage image = {0};

@@ -24,11 +24,12 @@ static size_t tile_size(int numbers) { return HEAD + (size_t)(SIDE * SIDE * numb
 /* Copies one tile between its numbers and the layers. */
 static void tile_copy(Sums *sums, int numbers, int tile, float *at, bool to_layers) {
     const int width = sums->images[0].width, height = sums->images[0].height, across = (width + SIDE - 1) / SIDE;
-    for (int p = 0; p < SIDE * SIDE; p++) {
+    for (int p = 0; p < SIDE * SIDE && across > 0; p++) {
         const int x = tile % across * SIDE + p % SIDE, y = tile / across * SIDE + p / SIDE;
         for (int k = 0; x < width && y < height && k < sums->count; k++) {
             const WeftImage *image = &sums->images[k];
             const size_t size = (size_t)image->channels * sizeof(float);
+            if (!image->pixels) continue;
             float *pixel = (float *)image->pixels + ((size_t)y * (size_t)width + (size_t)x) * (size_t)image->channels;
             float *number = k == 0 ? at : at + HEAD + p * numbers + 4 * (k - 1);
             if (to_layers)
@@ -42,8 +43,9 @@ static void tile_copy(Sums *sums, int numbers, int tile, float *at, bool to_laye
 WeftResult sums_make(const WeftRender *render, int width, int height, Sums *sums, WeftError *error) {
     const int numbers = weft_render_tile_numbers(render), tiles = weft_render_tile_count(render);
     float *at = calloc(tile_size(numbers), sizeof *at);
-    WeftResult result = at ? WEFT_OK : failure(error, WEFT_RESOURCES, "out of memory");
+    WeftResult result = WEFT_OK;
     *sums = (Sums){.count = 0};
+    if (!at) return failure(error, WEFT_RESOURCES, "out of memory");
     for (int k = 0; k < layer_count(numbers) && result == WEFT_OK; k++) {
         const int channels = layer_names(k, numbers, sums->names[k]);
         result = weft_image_create(width, height, channels, WEFT_PIXEL_F32, &sums->images[k], error);
@@ -113,8 +115,8 @@ WeftResult sums_read(const char *path, int width, int height, const unsigned cha
     const int numbers = weft_render_tile_numbers(render), tiles = weft_render_tile_count(render);
     float *at = calloc(2 * tile_size(numbers), sizeof *at);
     Sums sums = {.count = 0};
-    WeftResult result = at ? WEFT_OK : failure(error, WEFT_RESOURCES, "out of memory");
-    if (result == WEFT_OK) result = layers_read(path, width, height, numbers, &sums, error);
+    if (!at) return failure(error, WEFT_RESOURCES, "out of memory");
+    WeftResult result = layers_read(path, width, height, numbers, &sums, error);
     for (int tile = 0; tile < tiles && result == WEFT_OK; tile++) {
         if (wanted && !wanted[tile]) continue;
         tile_copy(&sums, numbers, tile, at, false);
