@@ -1,5 +1,7 @@
-/* Fuzz: where it is seen and the sheen is not, and what lies over what */
+/* Fuzz: where it is seen and the sheen is not, what lies over what, its R, and the sheen that stands for it */
 #include "cases.h"
+#include "fibre/slab.h"
+#include "gltf/save/fuzz_sheen.h"
 #include "scene/record/material_at.h"
 
 static int profile_named(const char *id) {
@@ -91,10 +93,74 @@ static void fuzz_lies_over_the_coat(void **state) {
     if (!(fabs(kept - 1.0 + e) < 5e-3)) fail_msg("the coat keeps %g, not %g", kept, 1.0 - e);
 }
 
+/* R of a fuzz beside the solver of the slab that it stands for, over the greatest R of that alpha. */
+static double worst_of(int id) {
+    static const float alphas[] = {0.2f, 0.3f, 0.37f, 0.5f, 0.71f, 0.85f, 1.0f};
+    static const double cosines[] = {0.03, 0.11, 0.25, 0.5, 0.77, 0.98};
+    double worst = 0.0;
+    for (size_t k = 0; k < sizeof alphas / sizeof *alphas; k++) {
+        const Slab slab = {(double)alphas[k], 1.0, 1.0};
+        Lobe lobe = lobe_default(id);
+        double most = 0.0, off = 0.0;
+        lobe_set(&lobe, 0, alphas[k]);
+        for (size_t j = 0; j < sizeof cosines / sizeof *cosines; j++) {
+            double up = 0.0;
+            assert_true(slab_mode(&slab, slab_effort(slab.alpha), 0, 1, 1, &cosines[j], &(Layered){.up = &up}, NULL));
+            const double e = (double)albedo_quadrature(&lobe, direction_cos(cosines[j], 0.3), 1e-5).f0;
+            most = fmax(most, up);
+            off = fmax(off, fabs(e - up));
+        }
+        worst = fmax(worst, off / most);
+    }
+    return worst;
+}
+
+static void exact_fuzz_has_the_albedo_of_the_slab(void **state) {
+    (void)state;
+    const double exact = worst_of(LOBE_LTC_FIBRE), published = worst_of(LOBE_LTC_FIBRE_PUBLISHED);
+    print_message("R of khr-fuzz-exact is off by %.2g %%, of khr-fuzz by %.2g %%\n", 100.0 * exact, 100.0 * published);
+    assert_true(exact < 0.003);
+    assert_true(published > exact);
+}
+
+/* The sheen that is saved beside fuzz: as bright in the mean over a sphere in even light. */
+static void saved_sheen_is_as_bright_as_the_fuzz(void **state) {
+    (void)state;
+    enum { COSINES = 24 };
+    for (int k = 2; k <= 8; k++) {
+        Material m = fuzzy();
+        material_set_color(&m, INPUT_sheen_color, 0.0f, 0.0f, 0.0f);
+        material_set_color(&m, INPUT_fuzz_color, 0.8f, 0.8f, 0.4f);
+        m.inputs[INPUT_fuzz_roughness].value[0] = 0.1f * (float)k;
+        fuzz_sheen_put(&m);
+        const Surface s = material_plain(&m);
+        Lobe fuzz = lobe_default(LOBE_LTC_FIBRE_PUBLISHED), sheen = lobe_rough(LOBE_CHARLIE_KHRONOS, s.sheen_roughness);
+        double off = 0.0;
+        lobe_set(&fuzz, 0, s.fuzz_roughness);
+        for (int j = 0; j < COSINES; j++) {
+            const double mu = (sqrt)((j + 0.5) / COSINES); /* even over the picture of a sphere */
+            const Dir o = direction_cos(mu, 0.0);
+            const double e = (double)albedo_quadrature(&sheen, o, 1e-4).f0,
+                         r = (double)albedo_quadrature(&fuzz, o, 1e-4).f0;
+            off += fabs((double)s.sheen_color.r * e - 0.8 * r) / COSINES;
+        }
+        print_message("roughness %.1f: sheen of %.3f, colour %.3f, off by %.4f\n", 0.1 * k, (double)s.sheen_roughness,
+                      (double)s.sheen_color.r, off);
+        assert_true(off < 0.012);
+        assert_float_equal(s.sheen_color.b, 0.5f * s.sheen_color.r, 1e-6f);
+    }
+    Material own = fuzzy(), other = own; /* a sheen that is there stays */
+    fuzz_sheen_put(&other);
+    assert_float_equal(other.inputs[INPUT_sheen_roughness].value[0], own.inputs[INPUT_sheen_roughness].value[0], 0.0f);
+    assert_float_equal(other.inputs[INPUT_sheen_color].value[1], 0.0f, 0.0f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fuzz_wins_and_the_sheen_is_for_those_without),
         cmocka_unit_test(fuzz_lies_over_the_coat),
+        cmocka_unit_test(exact_fuzz_has_the_albedo_of_the_slab),
+        cmocka_unit_test(saved_sheen_is_as_bright_as_the_fuzz),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

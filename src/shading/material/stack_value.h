@@ -21,7 +21,9 @@ FN Rgb stack_under_sheen(const Stack *m, const StackView *w, const Angles *a, Rg
     Rgb base_scale = w->base_scale;
     if (layer_needs_wi(m->layer)) {
         SheenE e_i = sheen_e_of(0.0f);
-        if (HAS_SHEEN(m)) e_i = stack_albedo(m, a->i);
+        Dir at = a->i;
+        if (m->layer == LAYER_ALBEDO_HALF) at = a->h;
+        if (HAS_SHEEN(m)) e_i = stack_albedo(m, at);
         base_scale = stack_base_scale(m, w, e_i);
     }
     return rgb_mul(f, base_scale);
@@ -66,8 +68,8 @@ FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, con
     if (HAS_RETRO(m)) {
         Angles turned = angles_between(w->o, dir_turned(a->i));
         StackValue back = stack_base_value(m, w, only, &turned, below_f);
-        base.f_cos = rgb_mix(base.f_cos, back.f_cos, m->retro);
-        base.pdf = mix(base.pdf, back.pdf, m->retro);
+        base.f_cos = rgb_add(rgb_scale(base.f_cos, 1.0f - m->retro), rgb_scale(back.f_cos, m->retro));
+        base.pdf = base.pdf * (1.0f - m->retro) + back.pdf * m->retro;
     }
     Rgb f = base.f_cos;
     float pdf = base.pdf;

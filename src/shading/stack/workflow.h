@@ -89,15 +89,16 @@ FN void workflow_tint_below(Stack *m, Rgb t) {
     m->sheen.f90 = rgb_mul(m->sheen.f90, t);
 }
 
-/* Returns 1 - a (1 - (1 - k) / (1 - e k)): what a base of albedo e keeps under a coat that throws the share k of its
- * light back to it, by the amount a. */
-FN float workflow_darkened(float a, float k, float e) {
-    return 1.0f - a * (1.0f - (1.0f - k) / (1.0f - min(e, 1.0f) * k));
+/* Returns 1 - a (1 - kept / (1 - e (1 - kept))): what a base of albedo e keeps, by the amount a, under a coat that lets
+ * the share `kept` of its light out and throws the rest back to it. */
+FN float workflow_darkened(float a, float kept, float e) {
+    float albedo = min(e, 1.0f);
+    return 1.0f - a * (1.0f - kept / ((1.0f - albedo) + albedo * kept));
 }
 
 /* Gives the coat that workflow_coat set its index of refraction, stretch, colour and darkening, which is done last.
  * KHR_materials_coat (glTF pull request 2534), with the numbers of AcademySoftwareFoundation/OpenPBR,
- * reference/open_pbr_surface.mtlx: k = 1 - (1 - F0) / ior^2. Colour and darkening act by the amount of the coat. */
+ * reference/open_pbr_surface.mtlx: kept is (1 - F0) / ior^2. Colour and darkening act by the amount of the coat. */
 FN void workflow_coat_whole(Stack *m, const Surface *s) {
     if (s->clearcoat <= 0.0f) return;
     float ior = max(s->coat_ior, 1.0f), root = (ior - 1.0f) / (ior + 1.0f);
@@ -108,10 +109,10 @@ FN void workflow_coat_whole(Stack *m, const Surface *s) {
         m->coat_x = dir(x.x * d.x + y.x * d.y, x.y * d.x + y.y * d.y, x.z * d.x + y.z * d.y);
         m->coat_y = dir(y.x * d.x - x.x * d.y, y.y * d.x - x.y * d.y, y.z * d.x - x.z * d.y);
     }
-    float k = 1.0f - (1.0f - m->coat_f0) / (ior * ior), a = s->clearcoat * s->coat_darkening;
+    float kept = (1.0f - m->coat_f0) / (ior * ior), a = s->clearcoat * s->coat_darkening;
     Rgb e = s->base_color, tint = rgb_mix(rgb_grey(1.0f), s->coat_color, s->clearcoat);
-    workflow_tint_below(m, rgb_mul(tint, rgb(workflow_darkened(a, k, e.r), workflow_darkened(a, k, e.g),
-                                             workflow_darkened(a, k, e.b))));
+    workflow_tint_below(m, rgb_mul(tint, rgb(workflow_darkened(a, kept, e.r), workflow_darkened(a, kept, e.g),
+                                             workflow_darkened(a, kept, e.b))));
 }
 
 /* Puts fuzz in the place of the sheen, on the coat: E tints nothing and takes from what is below even where the fuzz is
