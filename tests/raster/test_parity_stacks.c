@@ -119,8 +119,18 @@ static int any_choice(Random *random, ChoiceId choice) {
     return k >= 0 && lobe && !(choice_fits(choice, k) && on_gpu(k)) ? CHOICE_AUTO : k;
 }
 
+/* Inputs that came later have random numbers of their own, so that all before keep theirs. */
+static bool came_later(InputId input) {
+    return input == INPUT_diffuse_roughness || input == INPUT_retroreflection || input == INPUT_fuzz ||
+           input == INPUT_fuzz_color || input == INPUT_fuzz_roughness || input == INPUT_coat_ior ||
+           input == INPUT_coat_color || input == INPUT_coat_darkening || input == INPUT_coat_anisotropy ||
+           input == INPUT_coat_anisotropy_direction;
+}
+
 static void fill_stack(Random *random, int which, float *row) {
     fill_pair(random, row);
+    Random later;
+    memcpy(&later.state, row, sizeof later.state); /* of two numbers of this row */
     float *at = row + SURFACE_AT;
 #define fill_SCALAR    fill_scalar
 #define fill_ANGLE     fill_angle
@@ -128,7 +138,7 @@ static void fill_stack(Random *random, int which, float *row) {
 #define fill_NORMAL    fill_normal
 #define fill_DIRECTION fill_direction
 #define FILL_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                             \
-    at = fill_##kind(random, (const float[]){low, high, hard_low, hard_high}, at);
+    at = fill_##kind(came_later(INPUT_##name) ? &later : random, (const float[]){low, high, hard_low, hard_high}, at);
     SURFACE_INPUTS(FILL_INPUT)
     for (int choice = 0; choice < CHOICE_COUNT; choice++)
         at[choice] = (float)(stack_name(which) ? CHOICE_AUTO : any_choice(random, (ChoiceId)choice));

@@ -35,7 +35,7 @@ static void base_is_that_of_the_mirror_direction(void **state) {
         Surface plain = base_of(&random, 0.0f), turned = plain, half = plain;
         turned.retroreflection = 1.0f, half.retroreflection = 0.5f;
         const Dir o = random_direction(&random), i = random_direction(&random);
-        const double f = f_of(&plain, dir_turned(o), i), g = f_of(&turned, o, i), straight = f_of(&plain, o, i);
+        const double f = f_of(&plain, dir_opposite(o), i), g = f_of(&turned, o, i), straight = f_of(&plain, o, i);
         assert_true(fabs(f - g) <= 1e-6 * fmax(f, straight));
         assert_true(fabs(f_of(&half, o, i) - 0.5 * (straight + g)) <= 2e-6 * fmax(straight, g));
     }
@@ -63,7 +63,7 @@ static double albedo_by_sum(const Surface *s, Dir o) {
     for (int k = 0; k < COSINES; k++)
         for (int j = 0; j < AZIMUTHS / 2; j++) {
             const Dir i = direction_cos((k + 0.5) / COSINES, 2.0 * PI_DOUBLE * (j + 0.5) / AZIMUTHS);
-            sum += (double)seen_eval(&seen, i, 1).f_cos.g + (double)seen_eval(&seen, dir_turned(i), 1).f_cos.g;
+            sum += (double)seen_eval(&seen, i, 1).f_cos.g + (double)seen_eval(&seen, dir_opposite(i), 1).f_cos.g;
         }
     return sum * 2.0 * PI_DOUBLE / (COSINES * AZIMUTHS);
 }

@@ -144,7 +144,7 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
         SlotLight light =
             LIGHT_OF_SLOT(specular)(t.specular, s, v, residual, m->specular.lobe, ambient_untinted(), -1.0f);
         if (HAS_RETRO(m)) {
-            AmbientView b = ambient_view(dir_turned(w->o), dir(1.0f, 0.0f, 0.0f), dir(0.0f, 1.0f, 0.0f),
+            AmbientView b = ambient_view(dir_opposite(w->o), dir(1.0f, 0.0f, 0.0f), dir(0.0f, 1.0f, 0.0f),
                                          dir(0.0f, 0.0f, 1.0f), v.occlusion);
             SlotLight back = LIGHT_OF_SLOT(specular)(t.specular, s, b, ambient_residual_lookups(s, b), m->specular.lobe,
                                                      ambient_untinted(), -1.0f);

@@ -96,17 +96,17 @@ FN Rgb area_slots_of(const Stack *m, const StackView *view, Slots only, AreaDens
     return rgb_scale(sum, (max(flux.z, 0.0f) + POLYGON_SMALL) / (seen + POLYGON_SMALL));
 }
 
-/* Works as area_slots_of, with the light that the base turns back: that of the polygon turned about the normal. */
+/* Works as area_slots_of, with the light that the base turns back: that of the polygon after half a turn about the normal. */
 FN Rgb area_slots(const Stack *m, const StackView *view, Slots only, AreaDensity d, Dir o, Polygon p) {
     if (!HAS_RETRO(m) || !(only.diffuse || only.specular)) return area_slots_of(m, view, only, d, o, p);
     Stack plain = *m;
-    Polygon turned = p;
+    Polygon opposite = p;
     plain.retro = 0.0f;
-    for (int k = 0; k < p.count; k++) turned.corners[k] = dir_turned(p.corners[k]);
+    for (int k = 0; k < p.count; k++) opposite.corners[k] = dir_opposite(p.corners[k]);
     Slots base = slots_of(only.diffuse, only.specular, false, false, false);
     Slots rest = slots_of(false, false, only.sheen, false, only.dust);
-    Rgb f =
-        rgb_mix(area_slots_of(&plain, view, base, d, o, p), area_slots_of(&plain, view, base, d, o, turned), m->retro);
+    Rgb f = rgb_mix(area_slots_of(&plain, view, base, d, o, p), area_slots_of(&plain, view, base, d, o, opposite),
+                    m->retro);
     return rgb_add(f, area_slots_of(&plain, view, rest, d, o, p));
 }
 

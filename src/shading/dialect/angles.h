@@ -45,7 +45,7 @@ FN Angles angles_between(Dir o, Dir i) {
 }
 
 /* Returns w turned about the normal by half a turn, the mirror direction of w. */
-FN Dir dir_turned(Dir w) { return dir(-w.x, -w.y, w.z); }
+FN Dir dir_opposite(Dir w) { return dir(-w.x, -w.y, w.z); }
 
 /* Returns wo mirrored about the unit half vector h. */
 FN Dir dir_mirror(Dir o, Dir h) {

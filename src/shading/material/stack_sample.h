@@ -57,10 +57,10 @@ FN void stack_draw_direction(const Stack *stack, const StackView *view, float u,
         *i = dir(above.x, above.y, -above.z);
         return;
     }
-    bool of_base = slot == PLACE_DIFFUSE || slot == PLACE_SPECULAR, turned = false;
-    if (HAS_RETRO(stack) && of_base) turned = stack_takes(stack->retro, &u);
+    bool of_base = slot == PLACE_DIFFUSE || slot == PLACE_SPECULAR, opposite = false;
+    if (HAS_RETRO(stack) && of_base) opposite = stack_takes(stack->retro, &u);
     SLOTS(SAMPLE_SLOT)
-    if (HAS_RETRO(stack) && turned) *i = dir_turned(*i);
+    if (HAS_RETRO(stack) && opposite) *i = dir_opposite(*i);
     if (HAS_COAT(stack) && slot == PLACE_COAT && i->z > 0.0f) *i = stack_from_coat(stack, *i);
     if (HAS_TRANSMITTED(stack)) i->z = max(i->z, 0.0f); /* what a lobe draws below is no sample */
 }

@@ -66,8 +66,8 @@ FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, con
     bool layered = HAS_LAYERED_SHEEN(m), below_f = IS_BELOW_F(m) && layered;
     StackValue base = stack_base_value(m, w, only, a, below_f);
     if (HAS_RETRO(m)) {
-        Angles turned = angles_between(w->o, dir_turned(a->i));
-        StackValue back = stack_base_value(m, w, only, &turned, below_f);
+        Angles opposite = angles_between(w->o, dir_opposite(a->i));
+        StackValue back = stack_base_value(m, w, only, &opposite, below_f);
         base.f_cos = rgb_add(rgb_scale(base.f_cos, 1.0f - m->retro), rgb_scale(back.f_cos, m->retro));
         base.pdf = base.pdf * (1.0f - m->retro) + back.pdf * m->retro;
     }
