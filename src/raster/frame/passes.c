@@ -33,13 +33,14 @@ static void put_reference(const WeftRaster *self, Picture *out) {
     put_row(out->ray_count, (float)rays->emitters, (float)self->sums.done, (float)rays->first[4], 0.0f);
 }
 
-/* Fills that block for a view of the scene, uploads it and binds it. */
-static void upload_view(const WeftRaster *self, const View *view) {
+/* Fills that block for a view of the scene, uploads it and binds it. seen: with which camera. */
+static void upload_view(const WeftRaster *self, const View *seen, const WeftRasterView *view) {
     Picture picture;
-    picture_make(self->scene, view, &self->polygons, &self->shadows, &self->floor, &picture);
+    picture_make(self->scene, seen, &self->polygons, &self->shadows, &self->floor, &picture);
     picture.floor_light[0] = self->sky_on_floor;
     picture.floor_light[2] = self->floor_shaded ? 1.0f : 0.0f;
     put_reference(self, &picture);
+    picture.texture_levels[0] = view->plain_textures ? 0.0f : 1.0f;
     upload_picture(self, &picture);
 }
 
@@ -336,7 +337,7 @@ static WeftResult draw_mirror(WeftRaster *self, const View *seen, const WeftRast
     alone.floor.on = 0;
     WeftResult result = ground_mirror(&self->ground, view->width, view->height, box, error);
     if (result != WEFT_OK) return result;
-    upload_view(self, &below);
+    upload_view(self, &below, view);
     bind_light(self, view);
     result = draw_all(self, &below, &alone, error);
     ground_mirrored(&self->ground); /* makes the mipmaps of the mirror image */
@@ -371,7 +372,7 @@ WeftResult frame_draw_passes(WeftRaster *self, const WeftRasterView *view, const
     const int *c = view->crop, box[4] = {c[0], view->height - c[1] - c[3], c[2], c[3]};
     if (result == WEFT_OK) result = draw_mirror(self, seen, view, box, error);
     if (result == WEFT_OK) {
-        upload_view(self, seen);
+        upload_view(self, seen, view);
         begin_picture(self, view, box);
         bind_light(self, view);
         result = draw_all(self, seen, view, error);
@@ -414,7 +415,7 @@ static WeftResult draw_strip(WeftRaster *self, const View *seen, int row, int ro
     frame_reset_state(self);
     if (row == 0) result = draw_mirror(self, seen, view, (const int[4]){c[0], bottom, c[2], c[3]}, error);
     if (result != WEFT_OK) return result;
-    upload_view(self, seen);
+    upload_view(self, seen, view);
     glViewport(0, 0, view->width, view->height);
     glBindFramebuffer(GL_FRAMEBUFFER, self->sums.frame.drawn);
     glEnable(GL_SCISSOR_TEST);

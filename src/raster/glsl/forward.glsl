@@ -106,38 +106,91 @@ Rgb stack_light(Stack m, Dir o, Facing at, Frame f, float occlusion) {
 }
 #endif
 
+/* Turns a frame so that x is the direction in which slopes vary most, with what is relative to it. */
+void turn_to_slopes(inout Frame f, inout Surface s, inout vec3 covariance) {
+#ifdef SLOPES_TURN
+    vec2 axis = slopes_axis(covariance);
+    f = frame_rotate(f, axis.x, axis.y);
+    s.nap_direction = slopes_rotated(s.nap_direction, axis);
+    s.clearcoat_normal = slopes_rotated(s.clearcoat_normal, axis);
+    float trace = covariance.x + covariance.z;
+    float along = axis.x * axis.x * covariance.x + 2.0 * axis.x * axis.y * covariance.y +
+                  axis.y * axis.y * covariance.z;
+    covariance = vec3(along, 0.0, trace - along);
+#endif
+}
+
+/* Returns the light that a surface reflects and transmits, and in a the part of the pixel that its threads cover. rest:
+ * covariance of its slopes; coat: twice the variance of those of the coat. */
+vec4 surface_light(Surface from, Facing at, Dir wo, vec3 rest, float coat) {
+    Surface s = from;
+    Frame f = frame_of(at, s, wo);
+#ifdef WOVEN
+    f = frame_rotate(f, weave_number(CLOTH_ROTATION_COS), weave_number(CLOTH_ROTATION_SIN));
+#endif
+    s = dust_accumulate(frame_surface(s), f.z, dir_of(eye.xyz + from_eye));
+    vec3 covariance = slopes_turned(rest, from.normal);
+    turn_to_slopes(f, s, covariance);
+    Dir o = frame_to(f, wo);
+    Stack m;
+    surface_stack(m, s, material_choices(), material_table());
+#ifdef WIDENED
+    stack_widen(m, 2.0 * covariance.x, 2.0 * covariance.z, coat);
+#endif
+#ifdef WOVEN
+    return woven_light(m, o, at, f, s.occlusion, s.wear);
+#else
+    return vec4(vec_of(stack_light(m, o, at, f, s.occlusion)), 1.0);
+#endif
+}
+
+/* Returns the mean light of the points of a pixel, as surface_light has it. */
+vec4 pixel_light(Surface s, Facing at, Dir wo) {
+    vec4 coat = slopes_of_clearcoat_normal(s.clearcoat_normal);
+    float coat_more = coat.x + coat.z;
+#ifdef SLOPES
+    vec4 own = slopes_of_normal(s.normal);
+#ifdef WOVEN
+    return surface_light(s, at, wo, own.xyz, coat_more);
+#else
+    Slopes slopes = slopes_of(own);
+    int points = slopes.along * slopes.across;
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < points; k++)
+        sum += surface_light(slopes_surface(s, slopes, k), at, wo, slopes.rest, coat_more);
+    return sum / float(points);
+#endif
+#else
+    return surface_light(s, at, wo, vec3(0.0), coat_more);
+#endif
+}
+
 void main() {
     Dir wo = dir_of(-forward.xyz);
     if (eye.w > 0.5) wo = dir_of(-normalize(from_eye));
     Facing at = fragment_facing(wo);
     Surface s = material_surface();
     float opacity = coverage_of(s.opacity);
+    smooth_normal = frame_visible_normal(facing_normal(at), wo);
+#ifdef PROPERTY
     Frame f = frame_of(at, s, wo);
 #ifdef WOVEN
     f = frame_rotate(f, weave_number(CLOTH_ROTATION_COS), weave_number(CLOTH_ROTATION_SIN));
 #endif
-    smooth_normal = frame_visible_normal(facing_normal(at), wo);
-#ifdef PROPERTY
     fragment = vec4(PROPERTY * opacity, opacity);
 #else
     Rgb sum = rgb_scale(s.base_color, SHOWS_EMISSION);
     if (!MATERIAL_UNLIT) {
         float strength = gl_FrontFacing || MATERIAL_DOUBLE_SIDED ? s.emission_strength : 0.0;
         sum = rgb_scale(s.emission, SHOWS_EMISSION * strength);
-        Dir o = frame_to(f, wo);
-        s = dust_accumulate(frame_surface(s), f.z, dir_of(eye.xyz + from_eye));
-        Stack m;
-        surface_stack(m, s, material_choices(), material_table());
+        vec4 light = pixel_light(s, at, wo);
+        sum = rgb_add(sum, rgb(light.r, light.g, light.b));
 #ifdef WOVEN
-        vec4 woven = woven_light(m, o, at, f, s.occlusion, s.wear);
-        sum = rgb_add(sum, rgb(woven.r, woven.g, woven.b));
 #ifdef MASKED
-        opacity = woven.a < 0.5 ? 0.0 : opacity;
+        opacity = light.a < 0.5 ? 0.0 : opacity;
 #else
-        opacity = opacity * woven.a;
+        opacity = opacity * light.a;
 #endif
-#else
-        sum = rgb_add(sum, stack_light(m, o, at, f, s.occlusion));
 #endif
     }
     fragment = vec4(vec_of(sum) * opacity, opacity);

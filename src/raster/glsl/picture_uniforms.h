@@ -38,5 +38,6 @@
     ONE(vec4, sky_color)   /* radiance of one colour */                                                      \
     ONE(vec4, sky_parts)   /* factor on diffuse lobe and dust, on the other lobes */                         \
     ONE(vec4, ray_first)   /* number of nodes; first texel of triangles, normals, emitters */                   \
-    ONE(vec4, ray_count)   /* number of emitters, number of the frame, first texel of masks */
+    ONE(vec4, ray_count)   /* number of emitters, number of the frame, first texel of masks */                  \
+    ONE(vec4, texture_levels) /* x: 1 if textures have smaller copies, 0 if the middle of a pixel is meant */
 /* clang-format on */

@@ -13,18 +13,21 @@ typedef struct Families {
     int *groups; /* of textures, for each slot and material; -1: nothing there */
 } Families;
 
-/* Returns the group of an input's texture, or -1. */
+/* Returns the group of an input's texture, or for k from INPUT_COUNT on of the slopes of that of input k - INPUT_COUNT;
+ * or -1. */
 static int group_of(const Families *self, int m, int k) {
     const Material *material = &self->scene->materials[m];
-    const Input *input = &material->inputs[k];
-    return input->texture ? textures_place(self->textures, input, textures_color(material, k)).group : -1;
+    const int of = k % INPUT_COUNT;
+    const Input *input = &material->inputs[of];
+    const TextureUse use = k < INPUT_COUNT ? textures_use(material, of) : TEXTURE_SLOPES;
+    return input->texture ? textures_place(self->textures, input, use).group : -1;
 }
 
 static bool same_texel(const Material *material, int j, int k) {
     const Input *a = &material->inputs[j], *b = &material->inputs[k];
     if (!a->texture || !b->texture) return !a->texture == !b->texture;
     bool same = a->texture == b->texture && a->texcoord == b->texcoord &&
-                textures_color(material, j) == textures_color(material, k);
+                textures_use(material, j) == textures_use(material, k);
     for (int n = 0; n < 6; n++) same &= is_equal(a->transform[n], b->transform[n]);
     return same;
 }
@@ -50,6 +53,37 @@ static bool slot_serves(const Families *self, int head, const int *slot, int k) 
     return some;
 }
 
+/* Returns the slot of texture k as group_of has it, which may be a new one; TEXTURE_SLOTS if there are too few. */
+static int take_slot(Families *self, int head, int k, int *slots) {
+    const int count = self->scene->material_count;
+    int slot = 0;
+    while (slot < *slots && !slot_serves(self, head, self->groups + slot * count, k)) slot++;
+    if (slot == TEXTURE_SLOTS) return slot;
+    if (slot == *slots) (*slots)++;
+    for (int m = 0; m < count; m++)
+        if (self->head[m] == head && group_of(self, m, k) >= 0) self->groups[slot * count + m] = group_of(self, m, k);
+    return slot;
+}
+
+/* Returns true if some material of a family has the slopes of a normal map. */
+static bool has_slopes(const Families *self, int head, int k) {
+    bool some = false;
+    for (int m = 0; m < self->scene->material_count; m++)
+        some |= self->head[m] == head && input_infos[k].kind == WEFT_INPUT_NORMAL &&
+                group_of(self, m, INPUT_COUNT + k) >= 0;
+    return some;
+}
+
+/* Gives the slopes of normal maps the slots that are left. Without one, a map is drawn by its mean normals. */
+static void find_slope_slots(Families *self, int head, ShaderKey *key, int *slots) {
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        key->inputs[k].slopes = 0;
+        if (!has_slopes(self, head, k)) continue;
+        const int slot = take_slot(self, head, INPUT_COUNT + k, slots);
+        if (slot < TEXTURE_SLOTS) key->inputs[k].slopes = (int16_t)(slot + 1);
+    }
+}
+
 /* Gives each map of a family's key its slot. Returns the number of slots, or TEXTURE_SLOTS + 1 if there are too few. */
 static int find_slots(Families *self, int head, ShaderKey *key) {
     int count = scene_shaded_materials(self->scene), slots = 0;
@@ -57,18 +91,14 @@ static int find_slots(Families *self, int head, ShaderKey *key) {
     for (int k = 0; k < INPUT_COUNT; k++) {
         ShaderInput *input = &key->inputs[k];
         if (input->state != INPUT_MAP && input->state != INPUT_MAYBE) continue;
-        int slot = 0;
         input->like = -1;
         for (int j = k - 1; j >= 0; j--)
             if (key->inputs[j].like < 0 && all_like(self, head, j, k)) input->like = (int16_t)j;
-        while (slot < slots && !slot_serves(self, head, self->groups + slot * count, k)) slot++;
+        const int slot = take_slot(self, head, k, &slots);
         if (slot == TEXTURE_SLOTS) return TEXTURE_SLOTS + 1;
-        if (slot == slots) slots++;
         input->slot = (int16_t)slot;
-        for (int m = 0; m < count; m++)
-            if (self->head[m] == head && group_of(self, m, k) >= 0)
-                self->groups[slot * count + m] = group_of(self, m, k);
     }
+    find_slope_slots(self, head, key, &slots);
     return slots;
 }
 

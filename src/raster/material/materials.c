@@ -42,12 +42,17 @@ static InputState state_of(const Input *input, WeftInputKind kind) {
 
 static void add_map(GlMaterial *self, const GlTextures *textures, const Material *material, int k, Uniforms *uniforms) {
     const Input *input = &material->inputs[k];
-    TexturePlace at = textures_place(textures, input, textures_color(material, k));
+    TexturePlace at = textures_place(textures, input, textures_use(material, k));
+    TexturePlace slopes = textures_place(textures, input, TEXTURE_SLOPES);
     self->key.inputs[k].channel = (int16_t)input->channel;
     self->key.inputs[k].texcoord = (int16_t)input->texcoord;
     for (int row = 0; row < 2; row++)
         for (int c = 0; c < 3; c++) uniforms->places[2 * k + row][c] = input->transform[3 * row + c];
     uniforms->places[2 * k][3] = (float)at.layer;
+    if (input_infos[k].kind == WEFT_INPUT_NORMAL) {
+        uniforms->places[2 * k + 1][3] = (float)(slopes.group < 0 ? -1 : slopes.layer);
+        uniforms->inputs[k][1] = textures_slopes_level(textures, input);
+    }
     uniforms->inputs[k][3] = 1.0f;
 }
 

@@ -34,7 +34,8 @@ static CompositionSlots find_slots(const ShaderKey *key) {
 
 static bool is_mapped(const ShaderInput *input) { return input->state == INPUT_MAP || input->state == INPUT_MAYBE; }
 
-/* Sets all textured numbers of a surface to x. */
+/* Sets all textured numbers of a surface to x, and the roughness over a normal map, whose slopes widen the highlight
+ * from afar. */
 static void vary(const ShaderKey *key, Surface *s, float x) {
 #define VARY_SCALAR(name)    s->name = x
 #define VARY_ANGLE(name)     (void)0
@@ -44,6 +45,8 @@ static void vary(const ShaderKey *key, Surface *s, float x) {
 #define VARY(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                                   \
     if (is_mapped(&key->inputs[INPUT_##name])) VARY_##kind(name);
     SURFACE_INPUTS(VARY)
+    if (is_mapped(&key->inputs[INPUT_normal])) s->roughness = x;
+    if (is_mapped(&key->inputs[INPUT_clearcoat_normal])) s->clearcoat_roughness = x;
 }
 
 bool shader_bakes(const ShaderKey *key, int slot) {
@@ -74,7 +77,10 @@ static void put_uniforms(Text *text, const ShaderKey *key) {
     text_line(text, "};");
     int slots = 0;
     for (int k = 0; k < INPUT_COUNT; k++)
-        if (is_mapped(&key->inputs[k]) && key->inputs[k].slot >= slots) slots = key->inputs[k].slot + 1;
+        if (is_mapped(&key->inputs[k])) {
+            if (key->inputs[k].slot >= slots) slots = key->inputs[k].slot + 1;
+            if (key->inputs[k].slopes > slots) slots = key->inputs[k].slopes;
+        }
     if (slots) text_line(text, "uniform highp sampler2DArray material_maps[%d];", slots);
     if (slots || key->woven || key->part == WEFT_PART_TEXCOORD)
         text_line(text, "in highp vec2 texcoord_0;\nin highp vec2 texcoord_1;");
@@ -181,6 +187,50 @@ static void put_surface(Text *text, const ShaderKey *key) {
     text_line(text, "\nfloat coverage_of(float opacity) { return %s; }", coverage[key->alpha_mode]);
     if (key->alpha_mode == WEFT_ALPHA_MASK) text_define(text, "MASKED", "1");
     if (key->alpha_mode == WEFT_ALPHA_BLEND) text_define(text, "BLENDED", "1");
+}
+
+/* Writes the look-up of the slopes of a normal map about their mean. Their first level is material.y levels coarser than
+ * the map. */
+static void put_slopes_of(Text *text, const ShaderKey *key, int k) {
+    const ShaderInput *input = &key->inputs[k];
+    const char *name = input_infos[k].name;
+    const int slot = input->slopes - 1;
+    text_line(text, "\nvec4 slopes_of_%s(Dir mean) {", name);
+    if (is_mapped(input) && slot >= 0) {
+        text_line(text, "    vec3 from = vec3(texcoord_%d, 1.0);", input->texcoord);
+        text_line(text, "    vec2 at = vec2(dot(material_places[%d].xyz, from), dot(material_places[%d].xyz, from));",
+                  2 * k, 2 * k + 1);
+        text_line(text, "    float layer = material_places[%d].w;", 2 * k + 1);
+        text_line(text, "    float level = slopes_level(at * vec2(textureSize(material_maps[%d], 0).xy));", slot);
+        text_line(text, "    vec4 raw = textureLod(material_maps[%d], vec3(at, max(layer, 0.0)), max(level, 0.0));",
+                  slot);
+        text_line(text, "    float part = clamp(1.0 + level / max(material_%s.y, 1.0), 0.0, 1.0);", name);
+        text_line(text, "    if (layer < 0.0 || material_%s.w < 0.5) part = 0.0;", name);
+        text_line(text, "    return slopes_about(raw, material_%s.x, part, mean);", name);
+    } else {
+        text_line(text, "    return vec4(0.0);");
+    }
+    text_line(text, "}");
+}
+
+/* Returns true if the lobe of a slot depends on the azimuth of its frame. */
+static bool is_turned(const CompositionSlots *found, int slot) {
+    return found->slots[slot].count && weft_lobe_info(found->lobes[slot].id)->traits & TRAIT_ANISOTROPIC;
+}
+
+/* Writes the look-ups of slopes. SLOPES_TURN: the frame may be turned towards them, since no lobe but the highlight has
+ * an axis. */
+static void put_slopes(Text *text, const ShaderKey *key, const CompositionSlots *found) {
+    text_include(text, "raster/glsl/slopes.glsl");
+    put_slopes_of(text, key, INPUT_normal);
+    put_slopes_of(text, key, INPUT_clearcoat_normal);
+    if (key->inputs[INPUT_normal].slopes || key->inputs[INPUT_clearcoat_normal].slopes)
+        text_define(text, "WIDENED", "1");
+    if (!key->inputs[INPUT_normal].slopes) return;
+    text_define(text, "SLOPES", "1");
+    bool brushed = key->inputs[INPUT_anisotropy].state != INPUT_ZERO;
+    if (!brushed && !is_turned(found, PLACE_SHEEN) && !is_turned(found, PLACE_DIFFUSE))
+        text_define(text, "SLOPES_TURN", "1");
 }
 
 static void put_lights(Text *text, const ShaderKey *key) {
@@ -415,6 +465,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
     if (key->ambient) put_ambient(text, key, &found, fits);
     put_table(text, key);
     put_surface(text, key);
+    if (!key->reference) put_slopes(text, key, &found);
     if (key->reference && key->part != WEFT_PART_ALL) text_define(text, "SHOWS_PART", "1");
     if (key->reference > 1) text_define(text, "SKY_IN_PARTS", "1");
     text_include(text, key->reference ? "raster/glsl/reference.glsl" : "raster/glsl/forward.glsl");

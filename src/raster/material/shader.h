@@ -24,6 +24,7 @@ typedef struct ShaderInput {
     int16_t state;
     int16_t slot, channel, texcoord; /* of a map: sampler, channel of a number, UV set */
     int16_t like;                    /* earlier input that reads the same texel, or -1 */
+    int16_t slopes;                  /* of a normal map: sampler of its slopes (slopes.h), from 1; 0: none */
 } ShaderInput;
 
 /* Up to so many punctual lights are unrolled in the text, which is fastest. There are no more polygons. */
@@ -54,12 +55,13 @@ typedef struct ShaderKey {
 enum { FIT_VECTORS = AMBIENT_BAKED * SLOT_COUNT };
 typedef float MaterialVector[4];
 
-/* Lists the uniform block "Material" behind a vector for each input (w: 1 where it has a map): the type in C of a
- * vector of four, name, number of vectors. */
+/* Lists the uniform block "Material" behind a vector for each input (w: 1 where it has a map; y: of a normal map,
+ * textures_slopes_level): the type in C of a vector of four, name, number of vectors. */
 #define MATERIAL_BLOCK(M)                                                                                              \
-    M(MaterialVector, places, 2 * INPUT_COUNT) /* of each input: rows of its transform; layer of its map */            \
-    M(MaterialVector, e, 1)                    /* of the sheen's E: layer, low, high, tilt */                          \
-    M(MaterialVector, more, 1)                 /* alpha cutoff */                                                      \
+    M(MaterialVector, places,                                                                                          \
+      2 * INPUT_COUNT)         /* of each input: rows of its transform; layers of its map and slopes */                \
+    M(MaterialVector, e, 1)    /* of the sheen's E: layer, low, high, tilt */                                          \
+    M(MaterialVector, more, 1) /* alpha cutoff */                                                                      \
     M(MaterialVector, weave, CLOTH_NUMBERS / 4)                                                                        \
     M(AmbientWeights, fits, FIT_VECTORS) /* shading/ambient/ambient.h */
 

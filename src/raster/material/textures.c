@@ -1,5 +1,6 @@
 #include "raster/material/textures.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +10,7 @@
 #include "base/thread.h"
 #include "image/halve.h"
 #include "raster/gl/gl_check.h"
+#include "raster/material/slopes.h"
 #include "weft/progress.h"
 
 typedef struct Plan {
@@ -21,14 +23,16 @@ typedef struct Plan {
     TexturePlace *places;
 } Plan;
 
-bool textures_color(const Material *material, int input) {
+TextureUse textures_use(const Material *material, int input) {
     const Input *i = &material->inputs[input];
     /* opacity is the alpha of a colour texture: the same texels, and alpha is never decoded */
-    return input_infos[input].kind == WEFT_INPUT_COLOR || (input == INPUT_opacity && i->channel == 3);
+    bool color = input_infos[input].kind == WEFT_INPUT_COLOR || (input == INPUT_opacity && i->channel == 3);
+    return color ? TEXTURE_COLORS : TEXTURE_NUMBERS;
 }
 
-static GLenum format_of(const WeftImage *image, bool color) {
-    if (image->type == WEFT_PIXEL_U8) return color ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+static GLenum format_of(const WeftImage *image, TextureUse use) {
+    if (image->type == WEFT_PIXEL_U8 && use != TEXTURE_SLOPES)
+        return use == TEXTURE_COLORS ? GL_SRGB8_ALPHA8 : GL_RGBA8;
     return GL_RGBA16F; /* OpenGL ES 3.0 has no 16-bit integers that are filtered */
 }
 
@@ -39,21 +43,23 @@ static bool same_group(bool one_size, const TextureGroup *a, const TextureGroup 
 }
 
 /* Returns the properties of the group that a texture needs. */
-static TextureGroup group_for(const WeftScene *scene, int texture, bool color, int side_most) {
+static TextureGroup group_for(const WeftScene *scene, int texture, TextureUse use, int side_most) {
     const Texture *t = &scene->textures[texture];
     const WeftImage *image = &scene->images[t->image];
-    return (TextureGroup){.width = image->width < side_most ? image->width : side_most,
-                          .height = image->height < side_most ? image->height : side_most,
-                          .format = format_of(image, color),
+    int width = image->width, height = image->height;
+    if (use == TEXTURE_SLOPES) slopes_size(&width, &height);
+    return (TextureGroup){.width = width < side_most ? width : side_most,
+                          .height = height < side_most ? height : side_most,
+                          .format = format_of(image, use),
                           .wrap_u = t->wrap_u,
                           .wrap_v = t->wrap_v,
                           .nearest = t->nearest};
 }
 
-static void place(Plan *plan, int texture, bool color) {
-    TexturePlace *at = &plan->places[2 * texture + color];
+static void place(Plan *plan, int texture, TextureUse use) {
+    TexturePlace *at = &plan->places[TEXTURE_USES * texture + (int)use];
     if (at->group >= 0) return;
-    TextureGroup group = group_for(plan->scene, texture, color, plan->side_most);
+    TextureGroup group = group_for(plan->scene, texture, use, plan->side_most);
     int k = 0;
     while (k < plan->count &&
            !(same_group(plan->one_size, &plan->groups[k], &group) && plan->groups[k].layers < plan->layers_most))
@@ -72,7 +78,7 @@ static int count_groups(const TexturePlace *places, int texture_count, const Mat
         int texture = material->inputs[k].texture - 1, g = 0;
         if (texture < 0) continue;
         if (texture >= texture_count) return -1;
-        int group = places[2 * texture + textures_color(material, k)].group;
+        int group = places[TEXTURE_USES * texture + (int)textures_use(material, k)].group;
         if (group < 0) return -1;
         while (g < count && groups[g] != group) g++;
         if (g == count) groups[count++] = group;
@@ -85,11 +91,16 @@ static int make_plan(Plan *plan) {
     const WeftScene *scene = plan->scene;
     int most = 0;
     plan->count = 0;
-    for (int k = 0; k < 2 * scene->texture_count; k++) plan->places[k] = (TexturePlace){-1, 0};
+    for (int k = 0; k < TEXTURE_USES * scene->texture_count; k++) plan->places[k] = (TexturePlace){-1, 0};
     for (int m = 0; m < scene_shaded_materials(scene); m++) {
         const Material *material = &scene->materials[m];
-        for (int k = 0; k < INPUT_COUNT; k++)
-            if (material->inputs[k].texture) place(plan, material->inputs[k].texture - 1, textures_color(material, k));
+        for (int k = 0; k < INPUT_COUNT; k++) {
+            int texture = material->inputs[k].texture - 1;
+            if (texture < 0) continue;
+            place(plan, texture, textures_use(material, k));
+            bool slopes = input_infos[k].kind == WEFT_INPUT_NORMAL && !scene->textures[texture].nearest;
+            if (slopes) place(plan, texture, TEXTURE_SLOPES);
+        }
         int count = count_groups(plan->places, scene->texture_count, material);
         if (count > most) most = count;
     }
@@ -138,7 +149,7 @@ static void spread(const WeftImage *image, unsigned char *to) {
 
 /* Writes an image as four channels in the group's size, which texture_fetch scales it to. Integers of 8 bits stay;
  * others become floats, with colours of 16 bits decoded from sRGB. */
-static void put_texels(const WeftScene *scene, int texture, bool color, const TextureGroup *group, void *texels) {
+static void put_texels(const WeftScene *scene, int texture, TextureUse use, const TextureGroup *group, void *texels) {
     const WeftImage *image = &scene->images[scene->textures[texture].image];
     bool whole = group->format != GL_RGBA16F;
     bool same = image->width == group->width && image->height == group->height;
@@ -152,7 +163,7 @@ static void put_texels(const WeftScene *scene, int texture, bool color, const Te
     Texture direct = scene->textures[texture];
     direct.wrap_u = direct.wrap_v = WRAP_CLAMP;
     if (same) direct.nearest = true;
-    const SrgbTable *srgb = color && !whole ? &scene->srgb : NULL;
+    const SrgbTable *srgb = use == TEXTURE_COLORS && !whole ? &scene->srgb : NULL;
     for (size_t y = 0; y < height; y++)
         for (size_t x = 0; x < width; x++, to += 4 * size) {
             Texel t = texture_fetch(&direct, scene->images, srgb, ((float)x + 0.5f) / (float)width,
@@ -187,8 +198,15 @@ static void make_layer(void *user, int item, int thread) {
     const ArrayLayers *layers = user;
     const Layer *layer = &layers->items[item];
     const TextureGroup *group = &layers->plan->groups[layers->plan->places[layer->place].group];
+    const WeftScene *scene = layers->plan->scene;
+    const TextureUse use = (TextureUse)(layer->place % TEXTURE_USES);
+    const int texture = layer->place / TEXTURE_USES;
     unsigned char *to = layer->texels;
-    put_texels(layers->plan->scene, layer->place / 2, layer->place & 1, group, to);
+    if (use == TEXTURE_SLOPES) {
+        slopes_make(&scene->images[scene->textures[texture].image], group->width, group->height, layer->texels);
+        return;
+    }
+    put_texels(scene, texture, use, group, to);
     for (int level = 1, w = group->width, h = group->height; level < levels_of(group);
          level++, w = halved(w), h = halved(h)) {
         unsigned char *from = to;
@@ -212,13 +230,13 @@ static void upload_layer(const GlTextures *self, const Plan *plan, const Layer *
 }
 
 static bool is_wanted(const GlTextures *self, const Plan *plan, int place, bool stale) {
-    return self->places[place].group >= 0 && (!stale || textures_stale(self, plan->scene, place / 2));
+    return self->places[place].group >= 0 && (!stale || textures_stale(self, plan->scene, place / TEXTURE_USES));
 }
 
 /* Uploads all placed textures, or only the stale ones. As many layers are in memory at once as there are threads. */
 static WeftResult fill_groups(GlTextures *self, const Plan *plan, bool stale, int threads, WeftError *error) {
     const WeftScene *scene = plan->scene;
-    const int places = 2 * self->texture_count;
+    const int places = TEXTURE_USES * self->texture_count;
     ArrayLayers layers = {.plan = plan};
     WeftResult result = WEFT_OK;
     if (threads <= 0) threads = thread_count();
@@ -266,7 +284,7 @@ WeftResult textures_refresh(GlTextures *self, const WeftScene *scene, int thread
 WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out, const WeftLog *log, WeftError *error) {
     *out = (GlTextures){.texture_count = scene->texture_count};
     if (!scene->texture_count) return WEFT_OK;
-    size_t count = 2 * (size_t)scene->texture_count;
+    size_t count = TEXTURE_USES * (size_t)scene->texture_count;
     Plan plan = {.scene = scene};
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &plan.side_most);
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &plan.layers_most);
@@ -297,10 +315,10 @@ bool textures_stale(const GlTextures *self, const WeftScene *scene, int texture)
 /* Returns true if the texture as it is now fits in its place. */
 static bool fits(const GlTextures *self, const WeftScene *scene, int texture, int side_most) {
     bool fit = true;
-    for (int color = 0; color < 2; color++) {
-        int group = self->places[2 * texture + color].group;
+    for (int use = 0; use < TEXTURE_USES; use++) {
+        int group = self->places[TEXTURE_USES * texture + use].group;
         if (group < 0) continue;
-        TextureGroup wanted = group_for(scene, texture, color, side_most);
+        TextureGroup wanted = group_for(scene, texture, (TextureUse)use, side_most);
         fit &= same_group(self->one_size, &self->kinds[group], &wanted);
     }
     return fit;
@@ -318,8 +336,15 @@ bool textures_serve(const GlTextures *self, const WeftScene *scene) {
     return true;
 }
 
-TexturePlace textures_place(const GlTextures *self, const Input *input, bool color) {
-    return self->places[2 * (input->texture - 1) + color];
+TexturePlace textures_place(const GlTextures *self, const Input *input, TextureUse use) {
+    return self->places[TEXTURE_USES * (input->texture - 1) + (int)use];
+}
+
+float textures_slopes_level(const GlTextures *self, const Input *input) {
+    TexturePlace map = textures_place(self, input, TEXTURE_NUMBERS),
+                 slopes = textures_place(self, input, TEXTURE_SLOPES);
+    if (map.group < 0 || slopes.group < 0) return 0.0f;
+    return log2f((float)self->kinds[map.group].width / (float)self->kinds[slopes.group].width);
 }
 
 void textures_bind(const GlTextures *self, int group, int unit) {

@@ -9,7 +9,11 @@
 /* Most array textures of one material. */
 enum { TEXTURE_SLOTS = 8 };
 
-/* The place of a texture of the scene. Colours are decoded from sRGB before they are filtered, numbers are not. */
+/* What is uploaded of a texture of the scene: its texels as numbers, or as colours that are decoded from sRGB before they
+ * are filtered; or, of a normal map, how its slopes vary within the texels of each level (slopes.h). */
+typedef enum TextureUse { TEXTURE_NUMBERS, TEXTURE_COLORS, TEXTURE_SLOPES, TEXTURE_USES } TextureUse;
+
+/* The place of a texture of the scene. */
 typedef struct TexturePlace {
     int group; /* -1: not uploaded */
     int layer;
@@ -28,7 +32,7 @@ typedef struct GlTextures {
     unsigned *groups;    /* array textures */
     TextureGroup *kinds; /* of each */
     int group_count;
-    TexturePlace *places; /* two a texture of the scene: as numbers, as a colour */
+    TexturePlace *places; /* TEXTURE_USES a texture of the scene */
     unsigned *versions;   /* of each texture of the scene, as uploaded */
     int texture_count;    /* textures of the scene at the upload */
     bool one_size;        /* images are scaled to that of their group */
@@ -40,8 +44,8 @@ typedef struct GlTextures {
 WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out, const WeftLog *log, WeftError *error);
 void textures_destroy(GlTextures *textures);
 
-/* Returns true if the input reads its texture as a colour. */
-bool textures_color(const Material *material, int input);
+/* Returns how the input reads its texture: as numbers or as colours. */
+TextureUse textures_use(const Material *material, int input);
 
 /* Returns true if all textures that materials read are uploaded, for each material in at most TEXTURE_SLOTS
  * groups, and if changed pixels fit in the place of the old ones. */
@@ -55,7 +59,10 @@ bool textures_stale(const GlTextures *textures, const WeftScene *scene, int text
 WeftResult textures_refresh(GlTextures *textures, const WeftScene *scene, int threads, WeftError *error);
 
 /* Returns the place of the texture that an input reads. */
-TexturePlace textures_place(const GlTextures *textures, const Input *input, bool color);
+TexturePlace textures_place(const GlTextures *textures, const Input *input, TextureUse use);
+
+/* Returns log2 of the width of a texture's texels as slopes, in texels of the map; 0 where it has none. */
+float textures_slopes_level(const GlTextures *textures, const Input *input);
 
 /* Sets whether textures are looked up with mipmaps. */
 void textures_filter(const GlTextures *textures, bool mipmaps);
