@@ -226,8 +226,8 @@ static void match_options_without_sense_are_refused(void **state) {
     assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three", "-o", "scene.gltf"), 2, "would be lost");
     assert_complaint(NULL, LIST("match", "ggx", "velours"), 2, "velours");
     assert_complaint(NULL, LIST("match", "ggx", "silk", "--metric", "l2"), 2, "l2");
-    assert_complaint(NULL, LIST("match", "ggx", "silk", "--hold", "fuzz"), 2, "fuzz");
-    assert_complaint(NULL, LIST("match", "ggx", "three", "--hold", "fuzz"), 2, "fuzz");
+    assert_complaint(NULL, LIST("match", "ggx", "silk", "--hold", "lustre"), 2, "lustre");
+    assert_complaint(NULL, LIST("match", "ggx", "three", "--hold", "lustre"), 2, "lustre");
     assert_complaint(NULL, LIST("match", "ggx", "fibre-walk"), 2, "mean");
     assert_complaint(NULL, LIST("match", "ggx", "silk", "-o", "a.json"), 2, "not a material");
     assert_complaint(NULL, LIST("match", "ggx", "silk", "-o", "a.txt"), 2, ".png");

@@ -55,7 +55,7 @@ static bool slot_serves(const Families *self, int head, const int *slot, int k) 
 
 /* Returns the slot of texture k as group_of has it, which may be a new one; TEXTURE_SLOTS if there are too few. */
 static int take_slot(Families *self, int head, int k, int *slots) {
-    const int count = self->scene->material_count;
+    const int count = scene_shaded_materials(self->scene);
     int slot = 0;
     while (slot < *slots && !slot_serves(self, head, self->groups + slot * count, k)) slot++;
     if (slot == TEXTURE_SLOTS) return slot;
@@ -68,7 +68,7 @@ static int take_slot(Families *self, int head, int k, int *slots) {
 /* Returns true if some material of a family has the slopes of a normal map. */
 static bool has_slopes(const Families *self, int head, int k) {
     bool some = false;
-    for (int m = 0; m < self->scene->material_count; m++)
+    for (int m = 0; m < scene_shaded_materials(self->scene); m++)
         some |= self->head[m] == head && input_infos[k].kind == WEFT_INPUT_NORMAL &&
                 group_of(self, m, INPUT_COUNT + k) >= 0;
     return some;

@@ -81,10 +81,11 @@ static void add_begun(CompositionSlots *self, const Surface *s, const Choices *c
 
 CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT_COUNT], bool whole_sheen) {
     CompositionSlots found = {.used = true};
-    for (int x = 0; x <= (whole_sheen ? 2 : 5); x++) {
+    for (int x = 0; x < 2 * (whole_sheen ? 3 : 6); x++) {
         Stack m;
-        Surface s = composition_surface(0.5f * (float)(x % 3), zero);
-        if (x > 2) s.sheen = 0.5f; /* a profile may blend from highlight to sheen by it */
+        Surface s = composition_surface(0.5f * (float)(x / 2 % 3), zero);
+        if (x % 2 == 0) s.diffuse_roughness = 0.0f; /* the diffuse lobe is another one then */
+        if (x / 2 > 2) s.sheen = 0.5f;              /* a profile may blend from highlight to sheen by it */
         stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE});
         for (int k = 0; k < SLOT_COUNT; k++) {
             const Slot *slot = stack_slot(&m, k);
