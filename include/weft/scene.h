@@ -28,7 +28,7 @@ WEFT_API WeftResult weft_scene_load_watched(const char *path, WeftProgress progr
 
 /* A moment of an animation of a file. */
 typedef struct WeftMoment {
-    const char *animation; /* its name, or its index in digits; NULL: the first */
+    const char *animation; /* the name of the animation, or its index in digits; NULL: the first */
     double time;           /* seconds; before the first key of a value and after its last one it stands still */
 } WeftMoment;
 

@@ -84,7 +84,7 @@ static WeftResult words_agree(const char *words, WeftError *error) {
 
 /* ---- a process that follows */
 
-/* The numbers of tiles, one after another. */
+/* Returns the bytes of one tile: its head, then its numbers. */
 static size_t tile_size(const WeftRender *render) {
     return WEFT_RENDER_TILE_HEAD +
            (size_t)(WEFT_RENDER_TILE * WEFT_RENDER_TILE) * (size_t)weft_render_tile_numbers(render);
@@ -137,13 +137,13 @@ static void follow(const Gather *gather, int spp) {
 /* ---- the leader */
 
 /* A block that a process has: some of the tiles of Deal.order. */
-typedef struct Block {
+typedef struct DealtBlock {
     int first, count; /* count 0: none */
     int threads;      /* of the process; 0: it has not asked yet */
-    bool gone;        /* it was told that there is no more */
-} Block;
+    bool gone;        /* this process was told that there is no more */
+} DealtBlock;
 
-/* Sums that came while the leader rendered. */
+/* TileSums that came while the leader rendered. */
 typedef struct Arrived {
     struct Arrived *next;
     int first, count;
@@ -153,12 +153,12 @@ typedef struct Arrived {
 typedef struct Deal {
     Gather *gather;
     int spp, size, tiles;
-    size_t numbers;   /* of a tile */
-    int *order;       /* tiles that lack samples */
-    int count, dealt; /* of order */
-    int done;         /* tiles of order whose sums are in the render */
-    float *earlier;   /* sums of order, if any of them has samples; NULL: none has */
-    Block *blocks;    /* by rank; 0: the leader's own */
+    size_t numbers;     /* of a tile */
+    int *order;         /* tiles that lack samples */
+    int count, dealt;   /* of order */
+    int done;           /* tiles of order whose sums are in the render */
+    float *earlier;     /* sums of order, if any of them has samples; NULL: none has */
+    DealtBlock *blocks; /* by rank; 0: the leader's own */
     Arrived *arrived;
     int left; /* processes that have not been told that there is no more */
 } Deal;
@@ -203,21 +203,21 @@ static void deal_free(Deal *deal) {
 }
 
 /* Takes the next block for a process: its part of a share of what is left, but a tile for each of its threads. */
-static Block block_next(Deal *deal, int threads) {
+static DealtBlock block_next(Deal *deal, int threads) {
     const int rest = deal->count - deal->dealt;
     double all = 0.0;
     for (int k = 0; k < deal->size; k++) all += deal->blocks[k].threads ? deal->blocks[k].threads : threads;
     int count = (int)((double)rest * threads / (all * SHARES));
     if (count < threads) count = threads;
     if (count > rest) count = rest;
-    const Block block = {.first = deal->dealt, .count = count, .threads = threads};
+    const DealtBlock block = {.first = deal->dealt, .count = count, .threads = threads};
     deal->dealt += count;
     return block;
 }
 
 /* Sends a process its next block, or that there is none. */
 static void block_send(Deal *deal, int rank) {
-    Block *block = &deal->blocks[rank];
+    DealtBlock *block = &deal->blocks[rank];
     *block = block_next(deal, block->threads);
     int *work = calloc((size_t)block->count + 1, sizeof *work);
     if (!work) end_all("out of memory", WEFT_RESOURCES);
@@ -239,7 +239,7 @@ static bool answer(Deal *deal) {
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
     if (!there) return false;
     const int rank = status.MPI_SOURCE;
-    Block *block = &deal->blocks[rank];
+    DealtBlock *block = &deal->blocks[rank];
     if (status.MPI_TAG == TAG_ASK) {
         MPI_Recv(&block->threads, 1, MPI_INT, rank, TAG_ASK, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     } else {
@@ -284,7 +284,7 @@ static int deal_heed(void *user, double fraction) {
 /* Renders the leader's block, writes checkpoints, and takes what arrived. */
 static WeftResult own_render(Deal *deal, WeftError *error) {
     Gather *gather = deal->gather;
-    Block *own = &deal->blocks[0];
+    DealtBlock *own = &deal->blocks[0];
     unsigned char *wanted = calloc((size_t)deal->tiles, 1);
     WeftResult result = wanted ? WEFT_OK : failure(error, WEFT_RESOURCES, "out of memory");
     for (int k = 0; k < own->count && wanted; k++) wanted[deal->order[own->first + k]] = 1;

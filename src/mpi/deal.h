@@ -16,5 +16,5 @@ int deal_agree(int code, const char *complaint);
 /* Returns true after deal_agree. */
 bool deal_agreed(void);
 
-/* The run of a Crew. */
+/* Renders with the others, as a Crew does. */
 WeftResult deal_run(Gather *gather, const char *words, int spp, WeftError *error);

@@ -33,7 +33,7 @@ static int render_run(int count, char **arguments) {
     return result;
 }
 
-/* What a process that follows prints, which is shown only if it is the first that fails. */
+/* The output of a process that follows is kept in a file, and is shown only if that process is the first that fails. */
 typedef struct Hushed {
     FILE *file;
     int stream; /* standard error as it was */

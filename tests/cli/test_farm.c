@@ -98,7 +98,7 @@ static void other_jobs_have_their_natural_pieces(void **state) {
                    ": >asked.txt; PATH=.:$PATH sh job.sh; cmp one.txt - <<E\n1\nE\ntest -s two.txt"));
 }
 
-static void what_cannot_be_cut_is_refused(void **state) {
+static void jobs_that_cannot_be_cut_are_refused(void **state) {
     (void)state;
     static const struct {
         const char *arguments[9], *line;
@@ -133,7 +133,7 @@ int main(void) {
         cmocka_unit_test(script_of_slurm_submits_an_array_and_the_merge),
         cmocka_unit_test(turntable_is_dealt_out_by_pictures),
         cmocka_unit_test(other_jobs_have_their_natural_pieces),
-        cmocka_unit_test(what_cannot_be_cut_is_refused),
+        cmocka_unit_test(jobs_that_cannot_be_cut_are_refused),
     };
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

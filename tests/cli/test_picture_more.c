@@ -74,7 +74,7 @@ static void only_new_samples_are_traced_and_a_part_tells_the_truth(void **state)
     ran_free(&part);
 }
 
-static void what_cannot_be_added_to_is_refused_by_name(void **state) {
+static void parts_that_cannot_grow_are_refused_by_name(void **state) {
     (void)state;
     parts_make(NULL);
     done(RUN("render", PICTURE, "--spp=20", "--chunk=1/1", "-o", "odd.exr"));
@@ -235,7 +235,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(later_samples_are_those_of_one_run),
         cmocka_unit_test(only_new_samples_are_traced_and_a_part_tells_the_truth),
-        cmocka_unit_test(what_cannot_be_added_to_is_refused_by_name),
+        cmocka_unit_test(parts_that_cannot_grow_are_refused_by_name),
         cmocka_unit_test(killed_render_goes_on_from_its_checkpoint),
         cmocka_unit_test(interrupted_render_leaves_its_checkpoint),
         cmocka_unit_test(checkpoint_of_another_picture_is_refused_and_kept),

@@ -50,7 +50,7 @@ static void picture_of_several_processes_has_the_bytes_of_one(void **state) {
     }
 }
 
-/* Sums of earlier samples go to the processes that add to them. */
+/* TileSums of earlier samples go to the processes that add to them. */
 static void samples_are_added_together(void **state) {
     (void)state;
     need_mpi();

@@ -23,7 +23,6 @@ enum {
     KHR_FUZZ,
     KHR_FUZZ_EXACT,
     CORE,
-    BABYLON_OPENPBR,
     PROFILES
 };
 
@@ -395,34 +394,6 @@ static Color engine_khr_fuzz(const Surface *s, Pair p) {
     return f;
 }
 
-/* Bilinear between nodes that lie on the border: 32 cosines by 32 alphas. */
-static double published(int channel, double cosine, double alpha) {
-    const TableRef t = lobe_table_refs[LOBE_TABLE_ltc_fibre_published];
-    const int rows = t.rows / 3, k = (int)fmin(cosine * (t.columns - 1), t.columns - 2.0),
-              j = (int)fmin(alpha * (rows - 1), rows - 2.0);
-    const float *e = t.texels + ((size_t)channel * (size_t)rows + (size_t)j) * (size_t)t.columns + k;
-    const double x = cosine * (t.columns - 1) - k, y = alpha * (rows - 1) - j;
-    return lerp(lerp((double)e[0], (double)e[1], x), lerp((double)e[t.columns], (double)e[t.columns + 1], x), y);
-}
-
-static Color engine_babylon_openpbr(const Surface *s, Pair p) {
-    Given g = given_of(s);
-    const double alpha = (sqrt)(g.rs), r = published(2, p.nh, alpha), weight = fmin((double)s->sheen, 1.0) * r;
-    const double x = published(0, p.nh, alpha) * p.i[0] + published(1, p.nh, alpha) * p.i[1];
-    const double fuzz = p.l / (sqrt)(x * x + sq(p.i[1]) + sq(p.l)), fc = schlick(p.vh);
-    const double strength = fmin((double)s->specular, 1.0), ior = (double)s->ior;
-    const double f0 = sq((ior - 1.0) / (ior + 1.0)) * strength, dv = ggx(sq(g.r), p.nh) * smith(sq(g.r), p);
-    const double ac = sq((double)s->clearcoat_roughness), coat = (double)s->clearcoat * lerp(0.04, 1.0, schlick(p.v));
-    Color f, tint = color_of(s->specular_color), color = color_of(s->sheen_color);
-    for (int k = 0; k < 3; k++) {
-        double dielectric = g.base.c[k] / PI_DOUBLE * (1.0 - lerp(f0, 1.0, fc)) + dv * tint.c[k] * lerp(f0, 1.0, fc);
-        double metal = dv * strength * lerp(g.base.c[k], 1.0, fc);
-        double below = lerp(lerp(dielectric, metal, g.metal), ggx(ac, p.nh) * smith(ac, p), coat);
-        f.c[k] = lerp(below, color.c[k] * fuzz, weight);
-    }
-    return f;
-}
-
 static Color engine_core(const Surface *s, Pair p) {
     Given g = given_of(s);
     double dv = ggx(sq(g.r), p.nh) * smith(sq(g.r), p), fd = lerp(0.04, 1.0, schlick(p.vh));
@@ -453,7 +424,6 @@ static Color (*const engines[PROFILES])(const Surface *, Pair) = {
     [KHR_FUZZ] = engine_khr_fuzz,
     [KHR_FUZZ_EXACT] = engine_khr_fuzz,
     [CORE] = engine_core,
-    [BABYLON_OPENPBR] = engine_babylon_openpbr,
 };
 
 static Choices only_profile(int profile) {
@@ -560,7 +530,6 @@ static void profiles_follow_the_formulas_of_their_engines(void **state) {
                 bare.sheen_color = (Rgb){0.0f, 0.0f, 0.0f};
                 tolerance = 6e-3 * max3(given_of(&s).sheen) * max3(engine_principled(&bare, p));
             }
-            if (profile == BABYLON_OPENPBR) tolerance = 1e-5; /* of v, whose a and b are small numbers */
             if (profile == KHR_FUZZ || profile == KHR_FUZZ_EXACT) {
                 Surface bare = s;
                 bare.sheen = 0.0f;

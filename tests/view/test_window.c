@@ -118,7 +118,7 @@ static void window_driven_by_real_mouse_and_keys_does_as_told(void **state) {
     int at[2];
     layout("us");
     Drive drive = drive_start("wait rest\nwindow window.png\nstay\n",
-                              LIST("view", "--forget", "--json", "--width", "800", "--height", "560", CHEAP));
+                              LIST("view", "--forget", "--json", "--width", "800", "--height", "700", CHEAP));
     json_t *now = drive_rest(&drive);
     assert_string_equal(word_of(now, "camera"), "0");
     stage_place(now, 0.5, 0.5, at);
@@ -177,7 +177,7 @@ static void window_driven_by_real_mouse_and_keys_does_as_told(void **state) {
 
     /* what it looked like stays beside the tests */
     WeftImage window = picture_read("window.png");
-    assert_true(window.width == 800 && window.height == 560);
+    assert_true(window.width == 800 && window.height == 700);
     const unsigned char *p = window.pixels;
     bool seen[256] = {false};
     int levels = 0;

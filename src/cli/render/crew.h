@@ -4,7 +4,7 @@
  * gathered by all of its processes, of which the first leads: it alone reads earlier samples, warns, and writes. */
 #pragma once
 
-#include "cli/render/gather.h"
+#include "cli/render/picture_gather.h"
 
 /* A place in a crew. */
 typedef struct Crew {

@@ -10,7 +10,7 @@
 #include "cli/console/progress.h"
 #include "cli/files/save.h"
 #include "cli/render/crew.h"
-#include "cli/render/gather.h"
+#include "cli/render/picture_gather.h"
 #include "cli/render/picture_merge.h"
 #include "cli/render/picture_part.h"
 #include "weft/weft.h"

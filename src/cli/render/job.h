@@ -11,7 +11,7 @@ enum { JOB_STAGES = 32, PART_LAYERS = WEFT_IMAGE_LAYERS - 1, PART_NAME = 32, PAR
 typedef struct PicturePart {
     char words[PART_WORDS]; /* of the picture that it belongs to, picture_words.h */
     double pixels;          /* of a part; 0: the whole picture */
-    struct Sums *sums;      /* of a part, owned; NULL: none */
+    struct TileSums *sums;  /* of a part, owned; NULL: none */
     char isa[16];           /* the instruction set of a picture that was merged; empty: that in use */
     int spp, left;          /* of a picture that was merged: its samples a pixel, and parts with fewer that were left */
     int layer_count;

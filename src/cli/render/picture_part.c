@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/render/gather.h"
+#include "cli/render/picture_gather.h"
 #include "cli/render/picture_words.h"
 #include "cli/render/sums_file.h"
 #include "weft/weft.h"

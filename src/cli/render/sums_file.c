@@ -22,7 +22,7 @@ static int layer_count(int numbers) { return 1 + (numbers + 3) / 4; }
 static size_t tile_size(int numbers) { return HEAD + (size_t)(SIDE * SIDE * numbers); }
 
 /* Copies one tile between its numbers and the layers. */
-static void tile_copy(Sums *sums, int numbers, int tile, float *at, bool to_layers) {
+static void tile_copy(TileSums *sums, int numbers, int tile, float *at, bool to_layers) {
     const int width = sums->images[0].width, height = sums->images[0].height, across = (width + SIDE - 1) / SIDE;
     for (int p = 0; p < SIDE * SIDE && across > 0; p++) {
         const int x = tile % across * SIDE + p % SIDE, y = tile / across * SIDE + p / SIDE;
@@ -40,11 +40,11 @@ static void tile_copy(Sums *sums, int numbers, int tile, float *at, bool to_laye
     }
 }
 
-WeftResult sums_make(const WeftRender *render, int width, int height, Sums *sums, WeftError *error) {
+WeftResult sums_make(const WeftRender *render, int width, int height, TileSums *sums, WeftError *error) {
     const int numbers = weft_render_tile_numbers(render), tiles = weft_render_tile_count(render);
     float *at = calloc(tile_size(numbers), sizeof *at);
     WeftResult result = WEFT_OK;
-    *sums = (Sums){.count = 0};
+    *sums = (TileSums){.count = 0};
     if (!at) return failure(error, WEFT_RESOURCES, "out of memory");
     for (int k = 0; k < layer_count(numbers) && result == WEFT_OK; k++) {
         const int channels = layer_names(k, numbers, sums->names[k]);
@@ -60,12 +60,12 @@ WeftResult sums_make(const WeftRender *render, int width, int height, Sums *sums
     return result;
 }
 
-void sums_free(Sums *sums) {
+void sums_free(TileSums *sums) {
     for (int k = 0; k < sums->count; k++) weft_image_free(&sums->images[k]);
     sums->count = 0;
 }
 
-int sums_layers(const Sums *sums, WeftImageLayer layers[SUMS_LAYERS]) {
+int sums_layers(const TileSums *sums, WeftImageLayer layers[SUMS_LAYERS]) {
     for (int k = 0; k < sums->count; k++) {
         layers[k] = (WeftImageLayer){.image = &sums->images[k]};
         for (int c = 0; c < sums->images[k].channels; c++) layers[k].channels[c] = sums->names[k][c];
@@ -80,7 +80,7 @@ static WeftResult refuse(WeftError *error, const char *path, const char *text) {
 }
 
 /* Reads the layers of a file. */
-static WeftResult layers_read(const char *path, int width, int height, int numbers, Sums *sums, WeftError *error) {
+static WeftResult layers_read(const char *path, int width, int height, int numbers, TileSums *sums, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int k = 0; k < layer_count(numbers) && result == WEFT_OK; k++) {
         char names[4][SUMS_NAME];
@@ -114,7 +114,7 @@ WeftResult sums_read(const char *path, int width, int height, const unsigned cha
                      WeftRender *render, WeftError *error) {
     const int numbers = weft_render_tile_numbers(render), tiles = weft_render_tile_count(render);
     float *at = calloc(2 * tile_size(numbers), sizeof *at);
-    Sums sums = {.count = 0};
+    TileSums sums = {.count = 0};
     if (!at) return failure(error, WEFT_RESOURCES, "out of memory");
     WeftResult result = layers_read(path, width, height, numbers, &sums, error);
     for (int tile = 0; tile < tiles && result == WEFT_OK; tile++) {

@@ -42,23 +42,23 @@ static int task_add(Tasks *tasks, char *line) {
 /* ---- a command */
 
 /* A command that is being written. */
-typedef struct Line {
+typedef struct FarmLine {
     FILE *stream;
     char *text;
     size_t size;
     bool good;
-} Line;
+} FarmLine;
 
 /* Appends a word in quotes, with a blank before. */
-static void line_word(Line *line, const char *word) {
+static void line_word(FarmLine *line, const char *word) {
     char *quoted = line->good ? command_word(word) : NULL;
     line->good = quoted && fprintf(line->stream, " %s", quoted) > 0;
     free(quoted);
 }
 
 /* Begins a command with the program and a verb. */
-static void line_begin(Line *line, const Options *farm, const char *verb) {
-    *line = (Line){.stream = NULL};
+static void line_begin(FarmLine *line, const Options *farm, const char *verb) {
+    *line = (FarmLine){.stream = NULL};
     line->stream = open_memstream(&line->text, &line->size);
     char *program = command_word(option_text(farm, "--program"));
     line->good = line->stream && program && fprintf(line->stream, "%s", program) > 0;
@@ -67,13 +67,13 @@ static void line_begin(Line *line, const Options *farm, const char *verb) {
 }
 
 /* Appends an option and its value. */
-static void line_option(Line *line, const char *name, const char *value) {
+static void line_option(FarmLine *line, const char *name, const char *value) {
     line_word(line, name);
     if (value) line_word(line, value);
 }
 
 /* Appends all options of a job but those in `but`. A value that looks like an option is joined to its name. */
-static void line_options(Line *line, const Options *job, const char *const *but) {
+static void line_options(FarmLine *line, const Options *job, const char *const *but) {
     for (int k = 0; k < job->given_count; k++) {
         const Given *given = &job->given[k];
         bool left = false;
@@ -83,7 +83,7 @@ static void line_options(Line *line, const Options *job, const char *const *but)
 }
 
 /* Ends a command; NULL where memory was short. */
-static char *line_end(Line *line) {
+static char *line_end(FarmLine *line) {
     if (line->stream && fclose(line->stream) != 0) line->good = false;
     if (line->good) return line->text;
     free(line->text);
@@ -112,7 +112,7 @@ static char *part_name(const char *out, int number) {
 static int part_add(Tasks *tasks, const Options *farm, const Options *job, int index, int count, const char *out) {
     static const char *const but[] = {"-o", "--checkpoint", "--quiet", NULL};
     char chunk[32], *part = part_name(out, index), *point = part_name(out, -index);
-    Line line;
+    FarmLine line;
     snprintf(chunk, sizeof chunk, "%d/%d", index, count);
     line_begin(&line, farm, "render");
     line_word(&line, job->operands[0]);
@@ -130,7 +130,7 @@ static int part_add(Tasks *tasks, const Options *farm, const Options *job, int i
 static int parts_make(Tasks *tasks, const Options *farm, const Options *job, int count) {
     const char *out = option_text(job, "-o");
     int cursor = 0, result = 0;
-    Line line;
+    FarmLine line;
     for (int k = 1; k <= count && result == 0; k++) result = part_add(tasks, farm, job, k, count, out);
     if (result != 0) return result;
     line_begin(&line, farm, "merge");
@@ -151,7 +151,7 @@ static int frames_make(Tasks *tasks, const Options *farm, const Options *job, in
     int result = 0;
     for (int k = 1; k <= count && result == 0; k++) {
         char chunk[32];
-        Line line;
+        FarmLine line;
         snprintf(chunk, sizeof chunk, "%d/%d", k, count);
         line_begin(&line, farm, "render");
         line_word(&line, job->operands[0]);
@@ -167,7 +167,7 @@ static int operands_make(Tasks *tasks, const Options *farm, const Options *job) 
     static const char *const none[] = {NULL};
     int result = 0;
     for (int k = 0; k < job->operand_count && result == 0; k++) {
-        Line line;
+        FarmLine line;
         line_begin(&line, farm, job->verb->name);
         line_word(&line, job->operands[k]);
         line_options(&line, job, none);
@@ -181,14 +181,14 @@ static int checks_make(Tasks *tasks, const Options *farm, const Options *job) {
     static const char *const none[] = {NULL};
     int result = 0;
     for (int k = 0; result == 0 && k < weft_lobe_count(); k++) {
-        Line line;
+        FarmLine line;
         line_begin(&line, farm, "check");
         line_word(&line, weft_lobe_info(k)->id);
         line_options(&line, job, none);
         result = task_add(tasks, line_end(&line));
     }
     for (int k = 0; result == 0 && weft_profile_name(k); k++) {
-        Line line;
+        FarmLine line;
         line_begin(&line, farm, "check");
         line_word(&line, weft_profile_name(k));
         line_options(&line, job, none);
@@ -286,8 +286,6 @@ static int commands_read(Tasks *tasks, const char *path) {
     free(line);
     return result;
 }
-
-/* ---- scripts */
 
 static void list_print(FILE *to, const Tasks *tasks) {
     for (int k = 0; k < tasks->count; k++) fprintf(to, "%s\n", tasks->lines[k]);

@@ -4,7 +4,7 @@
 #include "cli/operands/each_asset.h"
 #include "cli/render/compare.h"
 #include "cli/render/crew.h"
-#include "cli/render/gather.h"
+#include "cli/render/picture_gather.h"
 #include "cli/render/turntable.h"
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"

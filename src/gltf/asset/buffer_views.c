@@ -95,7 +95,7 @@ static int choice(const Field *field, const char *absent, const char *const *nam
     return 0;
 }
 
-/* filter_count: of the names of filters, those that the extension has. */
+/* Reads what an extension says of compressed bytes; it has the first filter_count of the names of filters. */
 static void compression_read(const Field *field, int filter_count, BufferView *view) {
     static const char *const modes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
     static const char *const filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};

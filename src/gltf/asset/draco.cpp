@@ -25,7 +25,7 @@ namespace {
 /* Upper bounds of what the library holds for a triangle, and for a triangle and an attribute with seams. */
 constexpr size_t TRIANGLE = 64, SEAMS = 32;
 
-/* How many bytes a decoder may still take. */
+/* A decoder may still take so many bytes. */
 struct Allowance {
     size_t left;
     bool exceeded;

@@ -24,7 +24,7 @@ typedef struct MeshBake {
     const Primitive *primitive;
     Mesh *mesh;
     Pose pose;
-    bool again; /* it was baked for another instance, whose warnings were given */
+    bool again; /* the mesh was baked for another instance, whose warnings were given */
 } MeshBake;
 
 static void bake_fail(const MeshBake *bake, WeftMessage message, const char *what) {

@@ -214,7 +214,7 @@ static void put_slopes_of(Text *text, const ShaderKey *key, int k) {
 }
 
 /* Returns true if the lobe of a slot depends on the azimuth of its frame. */
-static bool is_turned(const CompositionSlots *found, int slot) {
+static bool has_axis(const CompositionSlots *found, int slot) {
     return found->slots[slot].count && weft_lobe_info(found->lobes[slot].id)->traits & TRAIT_ANISOTROPIC;
 }
 
@@ -229,7 +229,7 @@ static void put_slopes(Text *text, const ShaderKey *key, const CompositionSlots 
     if (!key->inputs[INPUT_normal].slopes) return;
     text_define(text, "SLOPES", "1");
     bool brushed = key->inputs[INPUT_anisotropy].state != INPUT_ZERO;
-    if (!brushed && !is_turned(found, PLACE_SHEEN) && !is_turned(found, PLACE_DIFFUSE))
+    if (!brushed && !has_axis(found, PLACE_SHEEN) && !has_axis(found, PLACE_DIFFUSE))
         text_define(text, "SLOPES_TURN", "1");
 }
 

@@ -9,8 +9,8 @@
 /* Most array textures of one material. */
 enum { TEXTURE_SLOTS = 8 };
 
-/* What is uploaded of a texture of the scene: its texels as numbers, or as colours that are decoded from sRGB before they
- * are filtered; or, of a normal map, how its slopes vary within the texels of each level (slopes.h). */
+/* The use of a texture decides what is uploaded of it: its texels as numbers, or as colours that are decoded from sRGB
+ * before they are filtered; or, of a normal map, how its slopes vary within the texels of each level (slopes.h). */
 typedef enum TextureUse { TEXTURE_NUMBERS, TEXTURE_COLORS, TEXTURE_SLOPES, TEXTURE_USES } TextureUse;
 
 /* The place of a texture of the scene. */

@@ -1,4 +1,4 @@
-#include "cli/render/gather.h"
+#include "cli/render/picture_gather.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -121,11 +121,9 @@ static WeftResult earlier_begin(Gather *gather, WeftError *error) {
     return result;
 }
 
-/* ---- checkpoints */
-
 WeftResult gather_checkpoint(Gather *gather, WeftError *error) {
     char words[PART_WORDS];
-    Sums sums = {.count = 0};
+    TileSums sums = {.count = 0};
     WeftImage image = {0};
     WeftImageLayer layers[SUMS_LAYERS];
     WeftResult result = words_of(gather, "weft-checkpoint", words, error);
