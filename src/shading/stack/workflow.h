@@ -110,7 +110,9 @@ FN void workflow_coat_whole(Stack *m, const Surface *s) {
         m->coat_y = dir(y.x * d.x - x.x * d.y, y.y * d.x - x.y * d.y, y.z * d.x - x.z * d.y);
     }
     float kept = (1.0f - m->coat_f0) / (ior * ior), a = s->clearcoat * s->coat_darkening;
-    Rgb e = s->base_color, tint = rgb_mix(rgb_grey(1.0f), s->coat_color, s->clearcoat);
+    Rgb e = s->base_color;
+    /* a sum, since a mix of 1 and a dark colour keeps few digits of the colour */
+    Rgb tint = rgb_add(rgb_grey(1.0f - s->clearcoat), rgb_scale(s->coat_color, s->clearcoat));
     workflow_tint_below(m, rgb_mul(tint, rgb(workflow_darkened(a, kept, e.r), workflow_darkened(a, kept, e.g),
                                              workflow_darkened(a, kept, e.b))));
 }
