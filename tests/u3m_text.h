@@ -13,29 +13,18 @@ enum { U3M_TEXT = 16384 };
 #define U3M_FLAT         "{\"constant\":{\"x\":0,\"y\":0,\"z\":1},\"texture\":null}"
 
 /* A visual part with the defaults of the schema. */
-#define U3M_VISUAL                                                                                                                                                                                                                                                               \
-    "{\"shader\":\"principled\",\"preview\":null,\"alpha\":" U3M_NUMBER_OF(                                                                                                                                                                                                      \
-        "1") ",\"anisotropy_"                                                                                                                                                                                                                                                    \
-             "value\":" U3M_NUMBER_OF(                                                                                                                                                                                                                                           \
-                 "0") ",\"ani"                                                                                                                                                                                                                                                   \
-                      "sotrop"                                                                                                                                                                                                                                                   \
-                      "y_"                                                                                                                                                                                                                                                       \
-                      "rotati"                                                                                                                                                                                                                                                   \
-                      "on\""                                                                                                                                                                                                                                                     \
-                      ":" U3M_NUMBER_OF("0") ",\"clearcoat_value\":" U3M_NUMBER_OF(                                                                                                                                                                                              \
-                          "0") ",\"clearcoat_normal\":" U3M_FLAT                                                                                                                                                                                                                 \
-                               ",\"clearcoat_roughness\":" U3M_NUMBER_OF("0") ",\"ior\":" U3M_NUMBER_OF(                                                                                                                                                                         \
-                                   "1.4") ",\"metalness\":" U3M_NUMBER_OF("0") ",\"normal\":" U3M_FLAT                                                                                                                                                                           \
-                                                                               ",\"displacement\":" U3M_NUMBER_OF("0") ",\"roughness\":" U3M_NUMBER_OF("0.7") ",\"sheen_value\":" U3M_NUMBER_OF("0") ",\"sheen_tint\":" U3M_NUMBER_OF("0") ",\"specular_value\":" U3M_NUMBER_OF( \
-                                                                                   "0.5") ",\"specular_"                                                                                                                                                                         \
-                                                                                          "tint\":" U3M_NUMBER_OF("0") ",\"subsurface_radius\":" U3M_NUMBER_OF(                                                                                                                  \
-                                                                                              "0") ",\"subsurface_"                                                                                                                                                              \
-                                                                                                   "value\""                                                                                                                                                                     \
-                                                                                                   ":" U3M_NUMBER_OF("0") ",\"transmission\""                                                                                                                                    \
-                                                                                                                          ":" U3M_NUMBER_OF(                                                                                                                                     \
-                                                                                                                              "0") ",\"basecolor\":" U3M_GREY                                                                                                                    \
-                                                                                                                                   ",\"subsurface_color\":" U3M_GREY                                                                                                             \
-                                                                                                                                   "}"
+/* clang-format off */
+#define U3M_VISUAL \
+    "{\"shader\":\"principled\",\"preview\":null,\"alpha\":" U3M_NUMBER_OF("1") ",\"anisotropy_value\":" \
+    U3M_NUMBER_OF("0") ",\"anisotropy_rotation\":" U3M_NUMBER_OF("0") ",\"clearcoat_value\":" \
+    U3M_NUMBER_OF("0") ",\"clearcoat_normal\":" U3M_FLAT ",\"clearcoat_roughness\":" U3M_NUMBER_OF("0") \
+    ",\"ior\":" U3M_NUMBER_OF("1.4") ",\"metalness\":" U3M_NUMBER_OF("0") ",\"normal\":" U3M_FLAT \
+    ",\"displacement\":" U3M_NUMBER_OF("0") ",\"roughness\":" U3M_NUMBER_OF("0.7") ",\"sheen_value\":" \
+    U3M_NUMBER_OF("0") ",\"sheen_tint\":" U3M_NUMBER_OF("0") ",\"specular_value\":" U3M_NUMBER_OF("0.5") \
+    ",\"specular_tint\":" U3M_NUMBER_OF("0") ",\"subsurface_radius\":" U3M_NUMBER_OF("0") \
+    ",\"subsurface_value\":" U3M_NUMBER_OF("0") ",\"transmission\":" U3M_NUMBER_OF("0") \
+    ",\"basecolor\":" U3M_GREY ",\"subsurface_color\":" U3M_GREY "}"
+/* clang-format on */
 
 #define U3M_BEFORE                                                                                                     \
     "{\"schema\":\"1.1\",\"custom\":null,\"material\":{\"id\":\"{45d231aa-96a0-4d94-9aae-4a99fae0e32a}\",\"name\":"    \

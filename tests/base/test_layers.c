@@ -39,6 +39,7 @@ static const char *const folders[] = {
     "fibre",
     "brdf",
     "scene/record",
+    "scene/u3m",
     "scene/material",
     "scene/light",
     "scene/builtin",

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "scene/material/material_file.h"
-#include "scene/material/u3m_archive.h"
+#include "scene/u3m/u3m_archive.h"
 
 /* The files that a U3M names. */
 typedef struct U3mFiles {

@@ -14,9 +14,9 @@
 #include "image/srgb.h"
 #include "scene/material/set.h"
 #include "scene/material/u3m.h"
-#include "scene/material/u3m_fields.h"
 #include "scene/material/u3m_texture.h"
 #include "scene/material/u3m_weave.h"
+#include "scene/u3m/u3m_fields.h"
 #include "shading/material/choice.h"
 
 enum { U3M_BYTES_MOST = 64 << 20, U3MA_BYTES_MOST = 1 << 30, TEXTS = 256 };

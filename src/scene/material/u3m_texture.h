@@ -1,7 +1,7 @@
 /* u3m_texture.h - a texture of a U3M file as one of weft's: its formula put into a factor, or into the pixels */
 #pragma once
 
-#include "scene/material/u3m_fields.h"
+#include "scene/u3m/u3m_fields.h"
 #include "weft/image.h"
 
 /* The ways in which a colour texture and its factor are mixed. */

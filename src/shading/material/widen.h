@@ -10,24 +10,8 @@
 #pragma once
 
 #include "shading/lobes/cook_torrance.h"
-#include "shading/lobes/ggx.h"
+#include "shading/lobes/ggx_widen.h"
 #include "shading/stack/stack.h"
-
-FN float widened(float alpha, float more) { return min(sqrt(alpha * alpha + max(more, 0.0f)), 1.0f); }
-
-/* Returns a lobe ggx of these alphas. It cannot be longer along y than along x, where it becomes round. */
-FN Lobe widen_ggx(Lobe lobe, float xx, float yy) {
-    Lobe m = lobe;
-    float stretch = m.params[GGX_ANISOTROPY], alpha = m.params[GGX_ALPHA];
-    float ax = widened(mix(alpha, 1.0f, stretch * stretch), xx), ay = widened(alpha, yy);
-    if (ax < ay) {
-        ax = sqrt(ax * ay);
-        ay = ax;
-    }
-    m.params[GGX_ALPHA] = ay;
-    m.params[GGX_ANISOTROPY] = sqrt((ax - ay) / max(1.0f - ay, 1e-6f));
-    return m;
-}
 
 FN Lobe widen_facets(Lobe lobe, float xx, float yy) {
     Lobe m = lobe;
@@ -44,12 +28,12 @@ FN Lobe widen_facets(Lobe lobe, float xx, float yy) {
  * directions, and prepares both again. */
 FN void stack_widen(Stack *m, float xx, float yy, float coat_more) {
     if (HAS_SPECULAR(m)) {
-        if (m->specular.lobe.id == LOBE_GGX) m->specular.lobe = widen_ggx(m->specular.lobe, xx, yy);
+        m->specular.lobe = ggx_widen(m->specular.lobe, xx, yy);
         if (lobe_is_composed(m->specular.lobe.id)) m->specular.lobe = widen_facets(m->specular.lobe, xx, yy);
         IN_SLOT(specular, prepare)(&m->specular.lobe, &m->specular_prepared);
     }
-    if (HAS_COAT(m) && m->coat.lobe.id == LOBE_GGX) {
-        m->coat.lobe = widen_ggx(m->coat.lobe, coat_more, coat_more);
+    if (HAS_COAT(m)) {
+        m->coat.lobe = ggx_widen(m->coat.lobe, coat_more, coat_more);
         IN_SLOT(coat, prepare)(&m->coat.lobe, &m->coat_prepared);
     }
 }

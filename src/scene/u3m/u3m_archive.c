@@ -1,4 +1,4 @@
-#include "scene/material/u3m_archive.h"
+#include "scene/u3m/u3m_archive.h"
 
 #include <stdlib.h>
 #include <string.h>

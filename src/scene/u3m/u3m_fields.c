@@ -1,4 +1,4 @@
-#include "scene/material/u3m_fields.h"
+#include "scene/u3m/u3m_fields.h"
 
 #include <math.h>
 #include <stddef.h>
