@@ -10,8 +10,25 @@
 #pragma once
 
 #include "shading/lobes/cook_torrance.h"
-#include "shading/lobes/ggx_widen.h"
+#include "shading/lobes/ggx.h"
 #include "shading/stack/stack.h"
+
+FN float widened(float alpha, float more) { return min(sqrt(alpha * alpha + max(more, 0.0f)), 1.0f); }
+
+/* Widens a lobe ggx; others stay. It cannot be longer along y than along x, where it becomes round. */
+FN Lobe widen_ggx(Lobe lobe, float xx, float yy) {
+    Lobe m = lobe, ggx = lobe_default(LOBE_GGX);
+    if (m.id != ggx.id) return m;
+    float stretch = m.params[GGX_ANISOTROPY], alpha = m.params[GGX_ALPHA];
+    float ax = widened(mix(alpha, 1.0f, stretch * stretch), xx), ay = widened(alpha, yy);
+    if (ax < ay) {
+        ax = sqrt(ax * ay);
+        ay = ax;
+    }
+    m.params[GGX_ALPHA] = ay;
+    m.params[GGX_ANISOTROPY] = sqrt((ax - ay) / max(1.0f - ay, 1e-6f));
+    return m;
+}
 
 FN Lobe widen_facets(Lobe lobe, float xx, float yy) {
     Lobe m = lobe;
@@ -28,12 +45,12 @@ FN Lobe widen_facets(Lobe lobe, float xx, float yy) {
  * directions, and prepares both again. */
 FN void stack_widen(Stack *m, float xx, float yy, float coat_more) {
     if (HAS_SPECULAR(m)) {
-        m->specular.lobe = ggx_widen(m->specular.lobe, xx, yy);
+        m->specular.lobe = widen_ggx(m->specular.lobe, xx, yy);
         if (lobe_is_composed(m->specular.lobe.id)) m->specular.lobe = widen_facets(m->specular.lobe, xx, yy);
         IN_SLOT(specular, prepare)(&m->specular.lobe, &m->specular_prepared);
     }
     if (HAS_COAT(m)) {
-        m->coat.lobe = ggx_widen(m->coat.lobe, coat_more, coat_more);
+        m->coat.lobe = widen_ggx(m->coat.lobe, coat_more, coat_more);
         IN_SLOT(coat, prepare)(&m->coat.lobe, &m->coat_prepared);
     }
 }
