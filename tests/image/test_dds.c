@@ -1,7 +1,5 @@
 /* DDS files put together here: each format of both headers, more pictures than one, blocks, damage. */
-#include "image/fixture.h"
-
-#include <stdbool.h>
+#include "image/texel_numbers.h"
 
 static void put_long(Bytes *bytes, uint32_t word) {
     put_word(bytes, (int)(word & 0xffff));
@@ -24,30 +22,6 @@ static Bytes headers(uint32_t dxgi, const uint32_t first[7], uint32_t caps, uint
     const uint32_t more[5] = {dxgi, 3, 0, pictures, 0};
     for (int k = 0; k < 5; k++) put_long(&bytes, more[k]);
     return bytes;
-}
-
-static void put_single(Bytes *bytes, float value) {
-    uint32_t word;
-    memcpy(&word, &value, sizeof word);
-    put_long(bytes, word);
-}
-
-static double value_at(const WeftImage *image, int k) {
-    return image->type == WEFT_PIXEL_U8    ? (double)((const unsigned char *)image->pixels)[k] / 255.0
-           : image->type == WEFT_PIXEL_U16 ? (double)((const uint16_t *)image->pixels)[k] / 65535.0
-                                           : (double)((const float *)image->pixels)[k];
-}
-
-/* Number k of a file is (k + 1) / 16. */
-static void put_numbers(Bytes *bytes, int size, bool floats, int count) {
-    static const int halves[] = {0x2c00, 0x3000, 0x3200, 0x3400, 0x3500, 0x3600, 0x3700, 0x3800};
-    for (int k = 0; k < count; k++)
-        if (size == 4)
-            put_single(bytes, (float)(k + 1) / 16.0f);
-        else if (size == 2)
-            put_word(bytes, floats ? halves[k] : (k + 1) * 65535 / 16);
-        else
-            put_byte(bytes, (k + 1) * 255 / 16);
 }
 
 static void dds_of_every_format_is_read(void **state) {

@@ -2,9 +2,7 @@
  *
  * What the blocks decode to is what the transcoder of three.js 0.187 makes of them; script/check extra compares the two on
  * more. */
-#include "image/fixture.h"
-
-#include <stdbool.h>
+#include "image/texel_numbers.h"
 
 #include <zstd.h>
 
@@ -82,30 +80,6 @@ static Bytes bytes_of(const char *hex) {
         put_byte(&bytes, (int)strtol(pair, NULL, 16));
     }
     return bytes;
-}
-
-static void put_single(Bytes *bytes, float value) {
-    uint32_t word;
-    memcpy(&word, &value, sizeof word);
-    put_long(bytes, word, 4);
-}
-
-static double value_at(const WeftImage *image, int k) {
-    return image->type == WEFT_PIXEL_U8    ? (double)((const unsigned char *)image->pixels)[k] / 255.0
-           : image->type == WEFT_PIXEL_U16 ? (double)((const uint16_t *)image->pixels)[k] / 65535.0
-                                           : (double)((const float *)image->pixels)[k];
-}
-
-/* Puts numbers of which k is (k + 1) / 16. */
-static void put_numbers(Bytes *bytes, int size, bool floats, int count) {
-    static const int halves[] = {0x2c00, 0x3000, 0x3200, 0x3400, 0x3500, 0x3600, 0x3700, 0x3800};
-    for (int k = 0; k < count; k++)
-        if (size == 4)
-            put_single(bytes, (float)(k + 1) / 16.0f);
-        else if (size == 2)
-            put_word(bytes, floats ? halves[k] : (k + 1) * 65535 / 16);
-        else
-            put_byte(bytes, (k + 1) * 255 / 16);
 }
 
 static void numbers_of_every_format_are_read(void **state) {

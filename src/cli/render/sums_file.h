@@ -7,7 +7,7 @@
 
 enum { SUMS_LAYERS = 1 + (WEFT_RENDER_NUMBERS + 3) / 4, SUMS_NAME = 16 };
 
-/* TileSums as layers. All zero: none. */
+/* The sums of a render as layers of a file. All zero: none. */
 typedef struct TileSums {
     int count;
     WeftImage images[SUMS_LAYERS]; /* owned */
@@ -22,7 +22,7 @@ void sums_free(TileSums *sums);
 int sums_layers(const TileSums *sums, WeftImageLayer layers[SUMS_LAYERS]);
 
 /* Adds to a render the tiles of a file that have more samples than it has. wanted: a byte for each tile, 0 if it is left
- * as it is; NULL: all. `block`: a tile must have a multiple of so many samples; 0: any number. Fails with one line that names the file where it has no such sums, or a size other than
- * width x height. */
+ * as it is; NULL: all. `block`: a tile must have a multiple of so many samples; 0: any number. Fails with one line that
+ * names the file where it has no such sums, or a size other than width x height. */
 WeftResult sums_read(const char *path, int width, int height, const unsigned char *wanted, int block,
                      WeftRender *render, WeftError *error);
