@@ -3,6 +3,7 @@
 
 #include "text/assemble/composition.h"
 
+#include "base/equal.h"
 #include "shading/catalogue/engine_tables.h"
 #include "text/assemble/tables.h"
 #include "text/source/number_text.h"
@@ -84,8 +85,9 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
     for (int x = 0; x < 2 * (whole_sheen ? 3 : 6); x++) {
         Stack m;
         Surface s = composition_surface(0.5f * (float)(x / 2 % 3), zero);
-        if (x % 2 == 0) s.diffuse_roughness = 0.0f; /* the diffuse lobe is another one then */
-        if (x / 2 > 2) s.sheen = 0.5f;              /* a profile may blend from highlight to sheen by it */
+        if (x % 2 && is_equal(s.diffuse_roughness, 0.0f)) continue; /* as the turn before */
+        if (x % 2 == 0) s.diffuse_roughness = 0.0f;                 /* the diffuse lobe is another one then */
+        if (x / 2 > 2) s.sheen = 0.5f; /* a profile may blend from highlight to sheen by it */
         stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE});
         for (int k = 0; k < SLOT_COUNT; k++) {
             const Slot *slot = stack_slot(&m, k);
