@@ -57,6 +57,17 @@ static void pipes_and_devices_are_refused_at_once(void **state) {
                      "/dev/zero: cannot be read: it is not a plain file");
     assert_complaint(NULL, LIST("doctor", "pipe"), 3, "not a plain file");
     assert_complaint(NULL, LIST("fit", "pipe"), 3, "not a plain file");
+    assert_complaint(NULL, LIST("convert", "pipe", "-o", "a.ktx2"), 3, "not a plain file");
+    assert_complaint(NULL, LIST("merge", "pipe", "-o", "a.exr"), 3, "not a plain file");
+    assert_complaint(NULL, LIST("render", "builtin:cloth", TINY, "-o", "a.png", "--material", "pipe"), 3,
+                     "not a plain file");
+    assert_complaint(NULL, LIST("weave", "pipe", "-o", "a.png"), 3, "not a plain file");
+    assert_int_equal(symlink("pipe", "table.h"), 0);
+    assert_complaint(NULL, LIST("bake", "audit", "table.h", "--lobe", "charlie-neubelt"), 3, "not a plain file");
+    unlink("table.h");
+    assert_int_equal(symlink("pipe", "cloth.u3ma"), 0);
+    assert_complaint(NULL, LIST("render", "cloth.u3ma", TINY, "-o", "a.png"), 3, "not a plain file");
+    unlink("cloth.u3ma");
     assert_complaint(NULL, LIST("diff", "pipe", "pipe"), 3, "not a plain file");
     unlink("pipe");
 }

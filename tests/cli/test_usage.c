@@ -89,7 +89,7 @@ static void usage_error_is_one_line(void **state) {
     assert_complaint(NULL, LIST("render", "a.glb", "b.glb", "-o", "o.png"), 2, "one file for 2 assets");
     assert_complaint(NULL, LIST("render", "a.glb", "-o"), 2, "-o: needs a value");
     assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--spp", "--quiet"), 2, "--spp: needs a value");
-    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--time", "3"), 2, "did you mean --time-limit?");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--time-limt", "3"), 2, "did you mean --time-limit?");
     assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--widht=3"), 2, "did you mean --width?");
     assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--zzzzzz"), 2, "weft render --help");
     assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--quiet=1"), 2, "takes no value");

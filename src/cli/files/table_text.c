@@ -1,7 +1,9 @@
+#define _POSIX_C_SOURCE 200809L /* fdopen */
 #include "cli/files/table_text.h"
 
 #include <ctype.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,11 +43,12 @@ bool table_text_suffix(const char *path) {
 /* Reads the file, with a zero byte at its end. */
 static int text_read(TableText *self) {
     struct stat about;
-    FILE *stream = fopen(self->path, "rb");
+    const int handle = open(self->path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC); /* a pipe would wait */
+    FILE *stream = handle < 0 ? NULL : fdopen(handle, "rb");
     if (!stream) return report(WEFT_INPUT, "%s: cannot be opened: %s", self->path, strerror(errno));
     int result = 0;
     if (fstat(fileno(stream), &about) != 0 || !S_ISREG(about.st_mode) || about.st_size > SIZE_MOST)
-        result = report(WEFT_INPUT, "%s: is no file, or is too large", self->path);
+        result = report(WEFT_INPUT, "%s: is not a plain file, or is too large", self->path);
     const size_t size = result == 0 ? (size_t)about.st_size : 0;
     self->text = result == 0 ? malloc(size + 1) : NULL;
     if (result == 0 && !self->text) result = report(WEFT_RESOURCES, "out of memory");

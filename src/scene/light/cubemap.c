@@ -53,11 +53,12 @@ static const char *file_name(const char *path) {
 
 /* Returns true if the path is a KTX 2 file of six faces. */
 static bool is_ktx2_cube(const char *path) {
-    unsigned char start[40] = {0};
-    FILE *file = is_folder(path) ? NULL : fopen(path, "rb");
-    const size_t got = file ? fread(start, 1, sizeof start, file) : 0;
-    if (file) fclose(file);
-    return got == sizeof start && ktx2_starts(start, got) && little_endian(start + 36, 4) == FACES;
+    FileBytes start = {0};
+    if (file_read_start(path, 40, &start, NULL) != WEFT_OK) return false;
+    const bool cube =
+        start.size == 40 && ktx2_starts(start.data, start.size) && little_endian(start.data + 36, 4) == FACES;
+    free(start.data);
+    return cube;
 }
 
 bool cubemap_named(const char *path) {
