@@ -15,8 +15,14 @@ static inline bool path_ends(const char *path, const char *suffix) {
 /* Returns true for a material of the textile industry, .u3m or .u3ma, which is a scene too: the built-in cloth in it. */
 static inline bool path_is_u3m(const char *path) { return path_ends(path, ".u3m") || path_ends(path, ".u3ma"); }
 
-/* Returns true if the path names a scene that the program has: builtin:NAME, or a U3M. */
-static inline bool path_is_built_in(const char *path) { return strncmp(path, "builtin:", 8) == 0 || path_is_u3m(path); }
+/* Returns NAME of builtin:NAME, a scene that the program brings, or NULL where the path is a file's. */
+static inline const char *path_builtin(const char *path) {
+    static const char prefix[] = "builtin:";
+    return strncmp(path, prefix, sizeof prefix - 1) == 0 ? path + sizeof prefix - 1 : NULL;
+}
+
+/* Returns true if the path is shown on a scene that the program brings: builtin:NAME, or a U3M. */
+static inline bool path_is_on_builtin(const char *path) { return path_builtin(path) || path_is_u3m(path); }
 
 enum { PATH_NUMBER = 16 };
 

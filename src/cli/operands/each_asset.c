@@ -5,13 +5,13 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/path.h"
 #include "cli/console/report.h"
-
-static const char builtin[] = "builtin:";
 
 /* Returns the name of an asset without its folder and suffix, and its length. */
 static const char *stem_of(const char *asset, int *length) {
-    if (strncmp(asset, builtin, strlen(builtin)) == 0) asset += strlen(builtin);
+    const char *builtin = path_builtin(asset);
+    if (builtin) asset = builtin;
     const char *slash = strrchr(asset, '/'), *name = slash ? slash + 1 : asset, *dot = strrchr(name, '.');
     *length = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
     return name;

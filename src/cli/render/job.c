@@ -53,7 +53,7 @@ static WeftResult gather(Job *job, WeftRender *render, const WeftRenderDesc *des
 
 const char *job_camera(const Job *job, const char *camera) {
     if (!camera) camera = job->request->desc.camera;
-    bool builtin = path_is_built_in(job->request->scene_options.scene);
+    bool builtin = path_is_on_builtin(job->request->scene_options.scene);
     return !camera && builtin && weft_scene_info(job->scene).camera_count > 0 ? "0" : camera;
 }
 

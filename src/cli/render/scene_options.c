@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "cli/console/names.h"
 #include "cli/console/report.h"
 #include "weft/image.h"
@@ -115,9 +116,8 @@ static bool read_moment(const Options *options, SceneOptions *scene_options) {
 
 /* Returns true unless the name begins with "builtin:" and no such scene is built in. */
 static bool check_scene(const char *scene) {
-    static const char prefix[] = "builtin:";
-    if (strncmp(scene, prefix, strlen(prefix)) != 0) return true;
-    const char *name = scene + strlen(prefix);
+    const char *name = path_builtin(scene);
+    if (!name) return true;
     Nearest nearest = {.typed = name};
     char list[256] = "", hint[96];
     for (int k = 0; weft_builtin_name(k); k++) {

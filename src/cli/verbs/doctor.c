@@ -259,7 +259,7 @@ static int examine(Visit *visit) {
 static int visit_make(Visit *visit) {
     int result = output_check(visit);
     if (result != 0) return result;
-    if (strncmp(visit->path, "builtin:", 8) == 0)
+    if (path_builtin(visit->path))
         return report(WEFT_INPUT, "%s: has no file; weft render %s --save FILE.glb makes one", visit->path,
                       visit->path);
     if (path_is_u3m(visit->path))

@@ -10,8 +10,6 @@
 #include "scene/material/cloth_fit.h"
 #include "weft/scene.h"
 
-static const char builtin_prefix[] = "builtin:";
-
 /* The receiver of progress, and what is shown. */
 typedef struct Watcher {
     WeftProgress progress; /* may be NULL */
@@ -20,7 +18,7 @@ typedef struct Watcher {
 } Watcher;
 
 static WeftResult load_builtin(const char *path, Watcher watcher, WeftScene *scene, WeftError *error) {
-    const char *name = path + strlen(builtin_prefix);
+    const char *name = path_builtin(path);
     for (int k = 0; builtin_at(k); k++) {
         const Builtin *builtin = builtin_at(k);
         if (strcmp(builtin->name, name) != 0) continue;
@@ -29,7 +27,7 @@ static WeftResult load_builtin(const char *path, Watcher watcher, WeftScene *sce
         return gltf_read_watched(path, builtin->glb, (size_t)(builtin->glb_end - builtin->glb), NULL, scene,
                                  watcher.progress, watcher.user, NULL, error);
     }
-    return fail(error, WEFT_MESSAGE_SCENE_NAME, path, "available: %s%s", builtin_prefix, builtin_at(0)->name);
+    return fail(error, WEFT_MESSAGE_SCENE_NAME, path, "available: builtin:%s", builtin_at(0)->name);
 }
 
 /* Fits cloths and hair to the meshes. Hair that is too much for a scene is left out with a warning. */
@@ -52,7 +50,7 @@ static WeftResult load(const char *path, const void *data, size_t size, Watcher 
     if (!scene) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
     WeftResult result;
     const bool alone = !data && path_is_u3m(path); /* a material, which the built-in cloth is of */
-    if (alone || (!data && strncmp(path, builtin_prefix, strlen(builtin_prefix)) == 0))
+    if (alone || (!data && path_builtin(path)))
         result = load_builtin(alone ? "builtin:cloth" : path, watcher, scene, error);
     else
         result = gltf_read_watched(path, data, size, watcher.moment, scene, watcher.progress, watcher.user, log, error);

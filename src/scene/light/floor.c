@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/path.h"
 
 WeftResult floor_check(const WeftFloor *wanted, WeftError *error) {
     bool good = wanted->reflection >= 0.0f && wanted->reflection <= 1.0f && wanted->roughness >= 0.0f &&
@@ -58,9 +59,8 @@ static bool has_floor(const WeftScene *scene) {
 }
 
 WeftFloor weft_scene_stage(const WeftScene *scene) {
-    const bool stands = strncmp(scene->name, "builtin:", 8) == 0 || scene->light_count > 0 ||
-                        scene->polygon_light_count > 0 || scene->environment.kind != ENVIRONMENT_STUDIO ||
-                        emits(scene) || has_floor(scene);
+    const bool stands = path_builtin(scene->name) || scene->light_count > 0 || scene->polygon_light_count > 0 ||
+                        scene->environment.kind != ENVIRONMENT_STUDIO || emits(scene) || has_floor(scene);
     return stands ? (WeftFloor){0} : (WeftFloor){.on = 1, .reflection = 0.0f, .roughness = 0.3f};
 }
 

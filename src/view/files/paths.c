@@ -8,6 +8,8 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "base/path.h"
+
 const char *path_name(const char *path) {
     const char *slash = strrchr(path, '/');
     return slash && slash[1] ? slash + 1 : path;
@@ -23,7 +25,7 @@ PathKind path_kind(const char *path) {
                  {".ktx2", PATH_PICTURE},  {".h", PATH_LOBE},       {".wif", PATH_DRAFT},   {".dtx", PATH_DRAFT},
                  {".u3m", PATH_MATERIAL},  {".u3ma", PATH_MATERIAL}};
     struct stat s;
-    if (strncmp(path, "builtin:", 8) == 0) return PATH_SCENE;
+    if (path_builtin(path)) return PATH_SCENE;
     if (strncmp(path, "preset:", 7) == 0) return PATH_MATERIAL;
     if (stat(path, &s) == 0 && S_ISDIR(s.st_mode)) return PATH_FOLDER;
     const char *dot = strrchr(path_name(path), '.');
@@ -42,7 +44,7 @@ bool path_is_cubemap(const char *folder) {
 }
 
 void path_stem(const char *path, char *stem, size_t size) {
-    const char *name = strncmp(path, "builtin:", 8) == 0 ? path + 8 : path_name(path), *dot = strrchr(name, '.');
+    const char *name = path_builtin(path) ? path_builtin(path) : path_name(path), *dot = strrchr(name, '.');
     snprintf(stem, size, "%.*s", dot && dot > name ? (int)(dot - name) : (int)strlen(name), name);
     for (char *p = stem; *p; p++)
         if (*p == '/' || iscntrl((unsigned char)*p)) *p = '-';

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/path.h"
 #include "view/files/paths.h"
 
 /* Adds a folder by its path, by the name or else by its own. */
@@ -29,7 +30,7 @@ static void add(FilePlaces *self, const char *path, const char *name) {
 static void add_folder_of(FilePlaces *self, const char *path, const char *name) {
     char folder[PLACE_PATH];
     const char *slash = strrchr(path, '/');
-    if (strncmp(path, "builtin:", 8) == 0 || strlen(path) >= sizeof folder) return;
+    if (path_builtin(path) || strlen(path) >= sizeof folder) return;
     snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
     add(self, folder, name);
 }

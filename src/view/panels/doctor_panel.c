@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "view/panels/examine.h"
 #include "view/panels/panels.h"
 #include "view/state/edit.h"
@@ -56,7 +57,7 @@ static void draw_findings(Viewer *v, const WeftDoctor *doctor) {
     }
 }
 
-static bool is_file(const Viewer *v) { return strncmp(v->shown->facts.path, "builtin:", 8) != 0; }
+static bool is_file(const Viewer *v) { return !path_builtin(v->shown->facts.path); }
 
 bool doctor_busy(const Viewer *v) {
     return v->options->panel == PANEL_DOCTOR && v->shown->any && is_file(v) &&

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "base/pi.h"
 #include "view/state/dialogs.h"
 #include "view/state/edit.h"
@@ -234,7 +235,7 @@ static void put_view(Line *line, const Viewer *v) {
     if (v->options->floor.on)
         put(line, " --floor --floor-reflection %.9g --floor-roughness %.9g", (double)v->options->floor.reflection,
             (double)v->options->floor.roughness);
-    else if (strncmp(v->shown->facts.path, "builtin:", 8) != 0)
+    else if (!path_builtin(v->shown->facts.path))
         put(line, " --stage none");
     if (v->options->hide_lights) put(line, " --hide-lights");
     if (differs(v->options->exposure, 0.0f)) put(line, " --exposure %.9g", (double)v->options->exposure);

@@ -225,7 +225,7 @@ static int on_progress(void *user, double fraction) {
 /* Returns the camera of the command line if it was given for this scene, else the first of a built-in scene, else one
  * that frames everything. */
 static const char *first_camera(const Loader *self) {
-    bool builtin = path_is_built_in(self->loaded.path);
+    bool builtin = path_is_on_builtin(self->loaded.path);
     if (self->configured && self->desc->camera) return self->desc->camera;
     return builtin && self->loaded.facts.info.camera_count ? "0" : "auto";
 }

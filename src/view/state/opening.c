@@ -8,6 +8,7 @@
 
 #include <epoxy/gl.h>
 
+#include "base/path.h"
 #include "view/files/paths.h"
 #include "view/files/survey.h"
 #include "view/state/actions.h"
@@ -18,7 +19,7 @@ enum { WATCH_SCENE, WATCH_LIGHT, WATCH_LOBES };
 /* Watches the files of scene, light and lobes; the renderer watches those of textures. */
 static void watch_files(Viewer *v) {
     file_watch_clear(v->states->opening.file_watch);
-    if (strncmp(v->states->shown.facts.path, "builtin:", 8) != 0)
+    if (!path_builtin(v->states->shown.facts.path))
         file_watch_add(v->states->opening.file_watch, v->states->shown.facts.path, WATCH_SCENE);
     if (v->edit->state.environment.kind == ENVIRONMENT_FILE)
         file_watch_add(v->states->opening.file_watch, v->edit->state.environment.path, WATCH_LIGHT);

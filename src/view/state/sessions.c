@@ -7,6 +7,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/path.h"
 #include "view/files/paths.h"
 #include "view/files/record.h"
 #include "view/render/session_state.h"
@@ -58,7 +59,7 @@ bool sessions_last(char path[STATE_PATH]) {
     json_t *session = session_file_last();
     const char *scene = json_string_value(json_object_get(session, "scene"));
     const bool there = scene && strlen(scene) < STATE_PATH && path_kind(scene) == PATH_SCENE &&
-                       (strncmp(scene, "builtin:", 8) == 0 || path_stamp(scene));
+                       (path_builtin(scene) || path_stamp(scene));
     if (there) snprintf(path, STATE_PATH, "%s", scene);
     json_decref(session);
     return there;
@@ -79,7 +80,7 @@ static json_t *session_json(const Viewer *v) {
     const Facts *facts = &v->shown->facts;
     const SceneState *first = configured(v) ? NULL : &v->edit->first;
     json_t *root = json_object(), *names = json_array(), *lobes = json_array();
-    char *real = strncmp(facts->path, "builtin:", 8) == 0 ? NULL : realpath(facts->path, NULL);
+    char *real = path_builtin(facts->path) ? NULL : realpath(facts->path, NULL);
     for (int k = 0; k < facts->info.material_count; k++) json_array_append_new(names, json_string(facts->materials[k]));
     for (int k = 0; k < v->opening->lobe_count; k++) json_array_append_new(lobes, json_string(v->opening->lobes[k]));
     json_object_set_new(root, "scene", json_string(real ? real : facts->path));
