@@ -620,6 +620,30 @@ static void texture_of_an_unreadable_container_falls_back_to_its_source(void **s
     done(reading);
 }
 
+/* Where the picture of an extension cannot be read the plain one beside it is taken, once for all textures of it. */
+static void plain_picture_is_taken_where_another_cannot_be_read(void **state) {
+    (void)state;
+    char *first = json("'images':[{'uri':'data:image/webp;base64,AAAAAAAA'},{'uri':'%s'}],"
+                       "'textures':[{'source':1,'extensions':{'EXT_texture_webp':{'source':0}}},"
+                       "{'source':1,'extensions':{'EXT_texture_webp':{'source':0}}}],",
+                       png);
+    Reading *reading = read_material(first, MAPPED ",'emissiveTexture':{'index':1}");
+    assert_read(reading);
+    assert_non_null(strstr(reading->warning, "memory: images[0]: is not an image"));
+    assert_non_null(strstr(reading->warning, "; the plain picture beside it is shown"));
+    assert_int_equal(reading->scene->image_count, 1);
+    assert_non_null(reading->scene->images[0].pixels);
+    assert_int_equal(reading->scene->texture_count, 2);
+    assert_int_equal(reading->scene->textures[1].image, 0);
+    done(reading);
+    free(first);
+    /* Neither can be read. */
+    reading = read_material("'images':[{'uri':'data:image/webp;base64,AAAAAAAA'},{'uri':'data:image/png;base64,AAAA'}],"
+                            "'textures':[{'source':1,'extensions':{'EXT_texture_webp':{'source':0}}}],",
+                            MAPPED);
+    assert_unread(reading, "images[1]");
+}
+
 /* The picture of EXT_texture_webp is taken in place of the plain one, and may be required. */
 static void pictures_of_webp_are_read(void **state) {
     (void)state;
@@ -665,7 +689,8 @@ static void pictures_of_ktx2_are_read(void **state) {
         Reading *reading = read_material(first, MAPPED);
         free(first);
         assert_read(reading);
-        assert_int_equal(reading->scene->image_count, damaged ? 0 : 1);
+        assert_int_equal(reading->scene->image_count, 1);
+        assert_int_equal(reading->scene->images[0].width, damaged ? 2 : 8);
         if (damaged)
             assert_non_null(strstr(reading->warning, "images[1]"));
         else
@@ -806,6 +831,7 @@ int main(void) {
         cmocka_unit_test(images_in_views_uris_and_files_are_found),
         cmocka_unit_test(images_of_too_many_pixels_together_are_refused),
         cmocka_unit_test(textures_whose_picture_cannot_be_read_are_left_out),
+        cmocka_unit_test(plain_picture_is_taken_where_another_cannot_be_read),
         cmocka_unit_test(pictures_of_webp_are_read),
         cmocka_unit_test(pictures_of_ktx2_are_read),
         cmocka_unit_test(texture_of_an_unreadable_container_falls_back_to_its_source),

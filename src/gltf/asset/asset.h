@@ -87,6 +87,7 @@ typedef struct Accessor {
 /* A glTF texture. `image` is -1 if only an extension such as EXT_texture_avif names a source. */
 typedef struct TextureSource {
     int image, sampler;
+    int spare;         /* the plain picture beside that of an extension, -1: none */
     const char *offer; /* the extension that names a picture of another format; NULL: none */
     int scene_texture; /* index into the scene's textures, -1 until something shown needs it */
 } TextureSource;

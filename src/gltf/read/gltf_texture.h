@@ -11,5 +11,5 @@ bool texture_extension_read(const char *extension);
 
 /* Replaces the indices of glTF textures in the inputs of the scene's materials by those of scene textures, and decodes
  * their images, each only once, in parallel. Materials that nothing shown uses lose their textures, and so do, with a
- * warning, inputs whose picture cannot be read. */
+ * warning, inputs whose picture cannot be read, unless a plain one lies beside it. */
 void textures_resolve(Asset *asset);

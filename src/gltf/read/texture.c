@@ -40,7 +40,7 @@ bool texture_extension_read(const char *extension) {
 static TextureSource source_read(const Field *field) {
     Field source = field_member(field, "source"), sampler = field_member(field, "sampler");
     TextureSource texture = {
-        .image = -1, .sampler = field_index(&sampler, field->asset->sampler_count), .scene_texture = -1};
+        .image = -1, .spare = -1, .sampler = field_index(&sampler, field->asset->sampler_count), .scene_texture = -1};
     const int plain = field_index(&source, field->asset->image_count);
     for (size_t i = 0; i < OFFERS; i++) {
         Field offer = field_extension(field, offers[i].extension), offered = field_member(&offer, "source");
@@ -53,6 +53,7 @@ static TextureSource source_read(const Field *field) {
                 field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "%s, its plain source is used", texture.offer);
         }
     }
+    texture.spare = texture.image < 0 || texture.image == plain ? -1 : plain;
     if (texture.image < 0) texture.image = plain;
     return texture;
 }
@@ -113,6 +114,7 @@ typedef struct DecodeJob {
     const char *name;  /* named in messages */
     const char *path;  /* NULL: no file of its own */
     int image;         /* number of the image in the file */
+    bool spared;       /* each texture that has it has a plain picture beside it */
     WeftResult result; /* of finding its bytes, then of decoding them */
     WeftError error;
 } DecodeJob;
@@ -120,6 +122,7 @@ typedef struct DecodeJob {
 typedef struct Jobs {
     Asset *asset;
     DecodeJob *items;         /* one for each image of the scene */
+    int first;                /* the first image that is to be decoded */
     int *order;               /* of the images: the longest file first, so that it does not end last */
     pthread_mutex_t log_lock; /* a log is never called by two threads at once */
     atomic_size_t decoded;    /* bytes of files */
@@ -151,7 +154,7 @@ static void log_locked(void *user, WeftMessage message, const char *text) {
 
 static void decode(void *user, int place, int thread) {
     Jobs *jobs = user;
-    int item = jobs->order[place];
+    const int item = jobs->order[jobs->first + place];
     DecodeJob *job = &jobs->items[item];
     Listener listener = {jobs, job->image};
     const WeftLog log = {log_locked, &listener};
@@ -181,10 +184,10 @@ static void sizes_check(Jobs *jobs) {
                    allowed);
 }
 
-static void order_find(Jobs *jobs) {
-    for (int i = 0; i < jobs->asset->scene->image_count; i++) {
+static void order_find(Jobs *jobs, int first) {
+    for (int i = first; i < jobs->asset->scene->image_count; i++) {
         int at = i;
-        for (; at > 0 && jobs->items[jobs->order[at - 1]].bytes.size < jobs->items[i].bytes.size; at--)
+        for (; at > first && jobs->items[jobs->order[at - 1]].bytes.size < jobs->items[i].bytes.size; at--)
             jobs->order[at] = jobs->order[at - 1];
         jobs->order[at] = i;
     }
@@ -193,17 +196,22 @@ static void order_find(Jobs *jobs) {
 /* Says why a picture cannot be read and, to whom the asset is shown, what becomes of its textures. */
 static void image_unread(Asset *asset, const DecodeJob *job) {
     char line[sizeof job->error.text + 64];
-    snprintf(line, sizeof line, "%s%s", job->error.text, asset->examined ? "" : "; its textures are left out");
+    snprintf(line, sizeof line, "%s%s", job->error.text,
+             asset->examined ? ""
+             : job->spared   ? "; the plain picture beside it is shown"
+                             : "; its textures are left out");
     image_log(asset, job->image, job->error.message, line);
 }
 
-static void images_decode(Jobs *jobs) {
+/* Decodes the images of the scene from the first of these on. */
+static void images_decode(Jobs *jobs, int first) {
     Asset *asset = jobs->asset;
-    int count = asset->scene->image_count;
+    const int count = asset->scene->image_count;
+    jobs->first = first;
     sizes_check(jobs);
-    order_find(jobs);
-    if (asset->result == WEFT_OK) parallel_for(0, count, decode, jobs);
-    for (int i = 0; i < count && asset->result == WEFT_OK; i++) {
+    order_find(jobs, first);
+    if (asset->result == WEFT_OK) parallel_for(0, count - first, decode, jobs);
+    for (int i = first; i < count && asset->result == WEFT_OK; i++) {
         const DecodeJob *job = &jobs->items[i];
         if (job->result == WEFT_INPUT) {
             image_unread(asset, job);
@@ -245,7 +253,7 @@ static int image_resolve(Jobs *jobs, int index) {
     int view = field_index(&view_field, asset->view_count), none = 0, *made = &none;
     WeftError why = {0}, *const told = asset->error;
     asset->error = &why;
-    DecodeJob job = {.name = image_name(asset, index), .image = index};
+    DecodeJob job = {.name = image_name(asset, index), .image = index, .spared = true};
     if (uri && uri_is_data(uri)) {
         job.bytes.data = job.owned = uri_decode(&uri_field, uri, &job.bytes.size);
     } else if (uri) {
@@ -311,8 +319,27 @@ static int texture_resolve(Jobs *jobs, int texture, int *image_of_source) {
         if (*image < 0) *image = image_resolve(jobs, source->image);
         made->image = *image;
         if (jobs->items[*image].path) made->path = asset_text(asset, jobs->items[*image].path);
+        jobs->items[*image].spared &= source->spare >= 0;
     }
     return source->scene_texture + 1;
+}
+
+/* Gives the textures whose picture cannot be read the plain one that lies beside it, and decodes that. */
+static void spares_take(Jobs *jobs, int *image_of_source) {
+    Asset *asset = jobs->asset;
+    const int decoded = asset->scene->image_count;
+    for (size_t i = 0; i < asset->texture_count && asset->result == WEFT_OK; i++) {
+        TextureSource *source = &asset->textures[i];
+        if (source->scene_texture < 0 || source->spare < 0) continue;
+        Texture *texture = &asset->scene->textures[source->scene_texture];
+        if (jobs->items[texture->image].result == WEFT_OK) continue;
+        int *image = &image_of_source[source->spare];
+        if (*image < 0) *image = image_resolve(jobs, source->spare);
+        jobs->items[*image].spared = false;
+        texture->image = *image;
+        texture->path = jobs->items[*image].path ? asset_text(asset, jobs->items[*image].path) : NULL;
+    }
+    if (asset->result == WEFT_OK && asset->scene->image_count > decoded) images_decode(jobs, decoded);
 }
 
 void textures_resolve(Asset *asset) {
@@ -339,7 +366,8 @@ void textures_resolve(Asset *asset) {
     if (asset->result == WEFT_OK && pthread_mutex_init(&jobs.log_lock, NULL) != 0)
         asset_fail(asset, WEFT_MESSAGE_MEMORY, NULL);
     if (asset->result == WEFT_OK) {
-        images_decode(&jobs);
+        images_decode(&jobs, 0);
+        if (asset->result == WEFT_OK && !asset->examined) spares_take(&jobs, image_of_source);
         pthread_mutex_destroy(&jobs.log_lock);
     }
     for (int i = 0; i < scene->image_count; i++) free(jobs.items[i].owned);
