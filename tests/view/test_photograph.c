@@ -65,14 +65,16 @@ static void a_photograph_is_seen_beside_behind_a_line_and_over_the_picture(void 
     for (int k = 0; k < 3; k++) assert_true(abs(2 * half[k] - c[k] - none[k]) <= 3);
 }
 
-/* Returns the size of the photograph in the last state before a window ends by itself. */
-static void size_after(const char *text, double size[2]) {
+/* Returns the size of the photograph, and how large it can be in the picture, in the last state before a window ends. */
+static void size_after(const char *text, double size[2], double *fits) {
     Drive drive = drive_start(text, LIST(UNSEEN, CHEAP));
     size[0] = size[1] = 0.0;
     for (bool ended = false; !ended;) {
         ended = drive_ended(&drive);
         for (json_t *now; (now = drive_next(&drive)); json_decref(now)) {
-            const json_t *box = json_object_get(now, "photograph_box");
+            const json_t *box = json_object_get(now, "photograph_box"), *stage = json_object_get(now, "stage");
+            *fits =
+                fmin(json_number_value(json_array_get(stage, 2)), json_number_value(json_array_get(stage, 3)) * 4 / 3);
             for (int k = 0; k < 2; k++) size[k] = json_number_value(json_array_get(box, (size_t)k + 2));
         }
         if (!ended) sleep_seconds(0.02);
@@ -84,16 +86,20 @@ static void a_photograph_grows_as_the_camera_comes_nearer(void **state) {
     (void)state;
     need_gl();
     photograph_make("photo.png", 400, 300, 0.0f);
-    double is[2], nearer[2], fixed[2];
+    double is[2], nearer[2], fixed[2], over[2], fits;
 #define USE                                                                                                            \
     "wait rest\ndrop photo.png\nwait 4\nclick \"Use a picture/As photograph\"\nwait 4\nwait rest\nclick Panel/View\n"
-    size_after(USE "wait seconds 1\nwait rest\n", is);
-    size_after(USE "move 0.5 0.5\nwheel 2\nwait seconds 1\nwait rest\n", nearer);
-    size_after(USE "click \"View/Zoom with the camera\"\nmove 0.5 0.5\nwheel 2\nwait seconds 1\nwait rest\n", fixed);
-    assert_true(is[0] > 100.0 && fabs(is[0] / is[1] - 400.0 / 300.0) < 0.03);
+    size_after(USE "wait seconds 1\nwait rest\n", is, &fits);
+    size_after(USE "move 0.5 0.5\nwheel 2\nwait seconds 1\nwait rest\n", nearer, &fits);
+    size_after(USE "click \"View/Zoom with the camera\"\nmove 0.5 0.5\nwheel 2\nwait seconds 1\nwait rest\n", fixed,
+               &fits);
+    if (!(is[0] > 100.0 && fabs(is[0] / is[1] - 400.0 / 300.0) < 0.03)) fail_msg("%g x %g", is[0], is[1]);
     const double grown = nearer[0] / is[0], due = 1.0 / (0.88 * 0.88);
     if (fabs(grown - due) > 0.02 * due) fail_msg("%g, not %g", grown, due);
     assert_true(fabs(fixed[0] - is[0]) <= 1.0);
+    /* Over the picture the camera stands elsewhere than beside it, since its picture is wider: nothing has come nearer. */
+    size_after(USE "wait rest\nclick View/place/Over\nwait seconds 1\nwait rest\n", over, &fits);
+    if (fabs(over[0] - fits) > 2.0) fail_msg("%g, where %g fits", over[0], fits);
 }
 
 /* A linear photograph is exposed like the picture, and a file that is none is a line. */

@@ -79,6 +79,11 @@ void photographs_set(Viewer *v, const PhotographView *view) {
 
 void photographs_reach(Viewer *v, float reach) { v->states->photographs.view.reach = within(reach, 0.0f, 1e9f); }
 
+void photographs_reframed(Viewer *v, const Orbit *before) {
+    const float then = reach_of(before), now = reach_of(&v->camera->orbit);
+    if (then > 0.0f) photographs_reach(v, v->states->photographs.view.reach * now / then);
+}
+
 static void take(PhotographsState *self, WeftImage *image) {
     viewer_upload(&self->texture, image);
     glBindTexture(GL_TEXTURE_2D, self->texture);

@@ -1,6 +1,7 @@
 /* photographs.h - the photograph that the picture is compared with: beside it, behind a line, or over it */
 #pragma once
 
+#include "view/render/orbit.h"
 #include "view/render/photograph.h"
 #include "view/state/viewer.h"
 
@@ -40,6 +41,10 @@ void photographs_set(Viewer *v, const PhotographView *view);
 
 /* Sets the height of what the camera saw where the size is as it is given, m. */
 void photographs_reach(Viewer *v, float reach);
+
+/* Keeps the size where the camera, which stood so before, fits the scene into a picture of another shape: nothing has come
+ * nearer. */
+void photographs_reframed(Viewer *v, const Orbit *before);
 
 /* Takes a picture that was read. Returns true if one was. */
 bool photographs_poll(Viewer *v);

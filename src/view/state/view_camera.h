@@ -6,6 +6,7 @@
 
 typedef struct CameraState {
     Orbit orbit;
+    bool found;    /* a frame through the scene's camera that it is at has told where that is */
     bool at_home;  /* home and reach are those of the renderer */
     float home[3]; /* target of the first camera, m */
     float reach;   /* half the distance to it, m: the size of the scene's objects */
