@@ -22,6 +22,8 @@
 #ifndef WEFT_MATCH_H
 #define WEFT_MATCH_H
 
+#include <stdint.h>
+
 #include "weft/lobe.h"
 #include "weft/material.h"
 #include "weft/reflection.h"
@@ -94,13 +96,14 @@ typedef struct WeftMatchJob {
 WEFT_API WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftBrdfMetric metric, int threads,
                                     WeftProgress progress, void *user, WeftError *error);
 
-/* The result for one material of an asset, in its glTF factors. With textures, the search matches the average of
- * texel times factor, and the factor is scaled by as much. */
+/* The result for one material of an asset, in its glTF factors. With textures, `found` is of the average of texel times
+ * factor. */
 typedef struct WeftAssetMatch {
     char name[64];        /* of the material, truncated */
     int changed;          /* 0: it has no sheen, or is unlit, and stays as it is */
     int clipped;          /* not 0: a factor would have exceeded 1, the limit of glTF */
-    int search;           /* number of the search, counted from 1; equal averages share one; 0: none */
+    int search;           /* number of the search, counted from 1; equal materials share one; 0: none */
+    uint64_t maps;        /* bit k: input k has a new texture (weft_material_input_info) */
     WeftMatch found;      /* the errors of copy and match */
     WeftMaterial copied;  /* under profile `to`, with the factors of the file */
     WeftMaterial matched; /* under profile `to`, with the new factors */
@@ -108,12 +111,15 @@ typedef struct WeftAssetMatch {
 
 /* Converts the glTF file at `path` for another engine and writes it to `out`. The factors base_color, roughness,
  * sheen_color, sheen_roughness and specular of materials that have a sheen change, so that under profile `to` they
- * come closest to what they are under profile `from` (indices of weft_profile_name); all else stays as it is,
- * byte for byte. Materials that are the same on average share one search; these run on all processors.
- * progress (may be NULL) receives the finished fraction, reading aside, and can stop the work in the midst of a
- * search: WEFT_INTERRUPTED, and nothing is written. *report (report may be NULL) receives a record of each of
- * *count materials; on success it is owned by the caller: release it with weft_match_report_free. Fails with
- * WEFT_MESSAGE_DESC (no such profile), and as reading and writing a file do. */
+ * come closest to what they are under profile `from` (indices of weft_profile_name). Textures of the first four are
+ * rewritten as PNGs where a factor does not do: each texel by a curve through matches at seven roughnesses of sheen or
+ * base and three brightnesses of the sheen. A colour of sheen or base that has no texture gets one if it has to follow
+ * the sheen's; where its texture has other coordinates than the sheen's, its factor alone changes. All else, old images
+ * included, stays as it is, byte for byte. Materials whose textures have the same means and ranges share one search;
+ * the searches run on all processors. progress (may be NULL) receives the finished fraction, reading and writing
+ * aside, and can stop the work in the midst of a search or an image: WEFT_INTERRUPTED, and nothing is written. *report
+ * (report may be NULL) receives a record of each of *count materials; on success it is owned by the caller: release it
+ * with weft_match_report_free. Fails with WEFT_MESSAGE_DESC (no such profile), and as reading and writing a file do. */
 WEFT_API WeftResult weft_match_asset(const char *path, const char *out, int from, int to, WeftBrdfMetric metric,
                                      WeftProgress progress, void *user, WeftAssetMatch **report, int *count,
                                      const WeftLog *log, WeftError *error);

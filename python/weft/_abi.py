@@ -554,6 +554,7 @@ class WeftAssetMatch(Structure):
         ("changed", c_int),
         ("clipped", c_int),
         ("search", c_int),
+        ("maps", c_uint64),
         ("found", WeftMatch),
         ("copied", WeftMaterial),
         ("matched", WeftMaterial),

@@ -28,7 +28,7 @@ from ._library import (
 )
 from ._records import Record, record
 from .lobes import Lobe
-from .materials import Material
+from .materials import Material, material_inputs
 from .reflections import Model, Reflection, _interleaved, named_model, reflection
 
 _NOTES = ("nothing", "bright", "edge", "gains")
@@ -196,8 +196,8 @@ def match_asset(
     file: PathLike, out: PathLike, source: str, to: str, metric: str = "cosine", *, progress: Progress = None
 ) -> list[Record]:
     """Converts a glTF file for another engine and writes it to out; source and to are ids of profiles. Returns a
-    record of each material: `name`, `changed`, `clipped`, `search`, `found` (`copied`, `matched`), and the Material
-    `copied` and `matched`."""
+    record of each material: `name`, `changed`, `clipped`, `search`, `found` (`copied`, `matched`), `maps` (a set of
+    the inputs with a new texture), and the Material `copied` and `matched`."""
     report = ctypes.POINTER(_abi.WeftAssetMatch)()
     count = ctypes.c_int()
     with Watch(progress) as watch:
@@ -216,7 +216,13 @@ def match_asset(
         )
     try:
         return [
-            record(r, leave=("copied", "matched"), copied=Material._of(r.copied), matched=Material._of(r.matched))
+            record(
+                r,
+                leave=("copied", "matched", "maps"),
+                copied=Material._of(r.copied),
+                matched=Material._of(r.matched),
+                maps={name for k, name in enumerate(material_inputs()) if r.maps >> k & 1},
+            )
             for r in (report[k] for k in range(count.value))
         ]
     finally:

@@ -40,7 +40,9 @@ static void asset_text(const WeftAssetMatch *matches, int count, WeftBrdfMetric 
             bool color = info.kind == WEFT_INPUT_COLOR;
             values_text(match->copied.inputs[n].value, color, was);
             values_text(match->matched.inputs[n].value, color, now);
-            if (strcmp(was, now) != 0) printf("  %-18s %-22s %s\n", info.name, was, now);
+            const bool rewritten = match->maps >> n & 1;
+            if (strcmp(was, now) != 0 || rewritten)
+                printf("  %-18s %-22s %s%s\n", info.name, was, now, rewritten ? " and a new texture" : "");
         }
         if (match->clipped) printf("  a factor ends at 1, where the match went beyond\n");
     }
@@ -73,6 +75,10 @@ static void asset_json(const WeftAssetMatch *matches, int count, WeftBrdfMetric 
             if (has_changed(match, n))
                 json_floats(&json, info.name, match->matched.inputs[n].value, info.kind == WEFT_INPUT_COLOR ? 3 : 1);
         json_close(&json, '}');
+        json_open(&json, "textures", '[');
+        for (int n = 0; weft_material_input_info(n, &info); n++)
+            if (match->maps >> n & 1) json_text(&json, NULL, info.name);
+        json_close(&json, ']');
         json_close(&json, '}');
     }
     json_close(&json, ']');

@@ -1,6 +1,7 @@
 /* Specification: Khronos Group, "glTF 2.0 Specification", 2021, sections 2.2 (file basics), 2.8 (URIs) and 4 (GLB). */
 #include "gltf/save/rewrite.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,6 +11,7 @@
 #include "gltf/save/bundle.h"
 #include "gltf/save/patch.h"
 #include "gltf/save/saving.h"
+#include "image/codec.h"
 
 WeftResult rewrite_begin(Rewrite *rewrite, Asset *asset, WeftError *error) {
     *rewrite = (Rewrite){.asset = asset, .root = json_deep_copy(asset->root)};
@@ -80,8 +82,51 @@ int rewrite_texture(Rewrite *rewrite, const void *png, size_t size, int like, We
         return -1;
     }
     memcpy(copy, png, size);
-    grown[rewrite->image_count++] = (NewImage){copy, size, image};
+    grown[rewrite->image_count++] = (NewImage){copy, size, image, texture};
     return texture;
+}
+
+static WeftResult encode(const WeftImage *image, bool data, const char *name, char **bytes, size_t *size,
+                         WeftError *error) {
+    const WeftImageWriting how = {.data = data};
+    *bytes = NULL;
+    FILE *stream = open_memstream(bytes, size);
+    if (!stream) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    WeftResult result = image_write_png(stream, name, image, &how, error);
+    if (fclose(stream) != 0 && result == WEFT_OK) result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    return result;
+}
+
+/* Returns the sampler of a texture; NULL for none, and for texture -1. */
+static const json_t *sampler_of(const Rewrite *rewrite, int texture) {
+    const json_t *textures = json_object_get(rewrite->root, "textures");
+    return texture < 0 ? NULL : json_object_get(json_array_get(textures, (size_t)texture), "sampler");
+}
+
+/* Returns the texture of an image that was added with these bytes and the sampler of texture `like`, or -1. */
+static int added_before(const Rewrite *rewrite, const char *bytes, size_t size, int like) {
+    const json_t *sampler = sampler_of(rewrite, like);
+    for (int k = 0; k < rewrite->image_count; k++) {
+        const NewImage *old = &rewrite->images[k];
+        const json_t *its = sampler_of(rewrite, old->texture);
+        if (old->size == size && memcmp(old->png, bytes, size) == 0 && (its == sampler || json_equal(its, sampler)))
+            return old->texture;
+    }
+    return -1;
+}
+
+WeftResult rewrite_image(Rewrite *rewrite, const WeftImage *image, bool data, int like, int *texture,
+                         WeftError *error) {
+    char *bytes = NULL;
+    size_t size = 0;
+    WeftResult result = encode(image, data, rewrite->asset->name, &bytes, &size, error);
+    if (result == WEFT_OK) {
+        *texture = added_before(rewrite, bytes, size, like);
+        if (*texture < 0) *texture = rewrite_texture(rewrite, bytes, size, like, error);
+        if (*texture < 0) result = WEFT_RESOURCES;
+    }
+    free(bytes);
+    return result;
 }
 
 /* Returns true if bytes of an asset in memory may become buffer 0 of a GLB. */

@@ -6,12 +6,14 @@
 #pragma once
 
 #include "gltf/asset/asset.h"
+#include "weft/image.h"
 
 /* An image that the file did not have. */
 typedef struct NewImage {
     unsigned char *png; /* owned */
     size_t size;
-    int index; /* index in "images" */
+    int index;   /* index in "images" */
+    int texture; /* index in "textures" */
 } NewImage;
 
 typedef struct Rewrite {
@@ -28,6 +30,10 @@ WeftResult rewrite_begin(Rewrite *rewrite, Asset *asset, WeftError *error);
 /* Appends an image to "images", whose bytes are copied, and a texture of it with the sampler of texture
  * number `like` (-1: none). Returns the index of the texture, or -1 with *error. */
 int rewrite_texture(Rewrite *rewrite, const void *png, size_t size, int like, WeftError *error);
+
+/* Works as rewrite_texture with an image of U8 or U16, and sets *texture to the index. data: its colours are plain
+ * numbers. An equal image that was added before with an equal sampler keeps its texture, so that uses share it. */
+WeftResult rewrite_image(Rewrite *rewrite, const WeftImage *image, bool data, int like, int *texture, WeftError *error);
 
 /* Adds an extension to extensionsUsed unless it is there; the second function removes it from there and from
  * extensionsRequired. */

@@ -6,7 +6,6 @@
 
 #include "base/fail.h"
 #include "gltf/save/rewrite.h"
-#include "image/codec.h"
 #include "measure/doctor/doctor.h"
 
 /* Follows one step of a JSON pointer; adds the value if it is missing and `make` is true. */
@@ -65,16 +64,6 @@ static WeftResult alpha_image(const WeftImage *from, int channel, const char *na
     return WEFT_OK;
 }
 
-static WeftResult encode(const WeftImage *image, const char *name, char **bytes, size_t *size, WeftError *error) {
-    const WeftImageWriting how = {.data = 1};
-    *bytes = NULL;
-    FILE *stream = open_memstream(bytes, size);
-    if (!stream) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
-    WeftResult result = image_write_png(stream, name, image, &how, error);
-    if (fclose(stream) != 0 && result == WEFT_OK) result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
-    return result;
-}
-
 /* Returns true if two repairs need the same image with the same sampler. */
 static bool same_move(const WeftDoctor *doctor, const Repair *a, const Repair *b) {
     if (a->act != REPAIR_ALPHA || b->act != REPAIR_ALPHA || a->channel != b->channel) return false;
@@ -100,15 +89,10 @@ static WeftResult alpha_texture(const WeftDoctor *doctor, Rewrite *rewrite, cons
     const char *name = doctor->asset.name;
     int texture = doctor->asset.textures[repair->texture].scene_texture;
     WeftImage image = {0};
-    char *bytes = NULL;
-    size_t size = 0;
     WeftResult result = alpha_image(&doctor->scene->images[doctor->scene->textures[texture].image], repair->channel,
                                     name, &image, error);
-    if (result == WEFT_OK) result = encode(&image, name, &bytes, &size, error);
-    if (result == WEFT_OK) *made = rewrite_texture(rewrite, bytes, size, repair->texture, error);
-    if (result == WEFT_OK && *made < 0) result = WEFT_RESOURCES;
+    if (result == WEFT_OK) result = rewrite_image(rewrite, &image, true, repair->texture, made, error);
     weft_image_free(&image);
-    free(bytes);
     return result;
 }
 

@@ -12,6 +12,8 @@
 #include "image/pixel.h"
 #include "measure/bsdf/material_key.h"
 #include "measure/match/match.h"
+#include "measure/match/match_curves.h"
+#include "measure/match/match_texels.h"
 #include "scene/record/scene.h"
 #include "shading/material/choice.h"
 
@@ -29,91 +31,159 @@ static int place_of(int channel, int channels) {
     return channels < 3 ? 0 : channel;
 }
 
-/* Returns the mean of a channel over a texture's pixels. color: integers are decoded from sRGB. */
-static double texture_mean(WeftImage image, int channel, bool color) {
+/* A channel of a texture, kept for all materials that read it. */
+typedef struct Channel {
+    bool done;
+    double mean;
+    ValueRange range;
+} Channel;
+
+/* Measures a channel over a texture's pixels. color: integers are decoded from sRGB. */
+static Channel channel_of(WeftImage image, int channel, bool color) {
+    Channel out = {true, 1.0, {1.0, 1.0}};
     double sum = 0.0;
     size_t pixels = (size_t)image.width * (size_t)image.height;
     int at = place_of(channel, image.channels);
-    if (at < 0 || pixels == 0) return 1.0;
+    if (at < 0 || pixels == 0) return out;
+    out.range = (ValueRange){INFINITY, -INFINITY};
     for (size_t k = 0; k < pixels; k++) {
         double x = pixel_value(&image, k * (size_t)image.channels + (size_t)at);
-        sum += color && image.type != WEFT_PIXEL_F32 ? linear_of(x) : x;
+        if (color && image.type != WEFT_PIXEL_F32) x = linear_of(x);
+        sum += x;
+        out.range.low = fmin(out.range.low, x);
+        out.range.high = fmax(out.range.high, x);
     }
-    return sum / (double)pixels;
+    out.mean = sum / (double)pixels;
+    return out;
 }
 
-/* A mean of a texture, kept for all materials that read it. */
-typedef struct Mean {
-    bool done;
-    double mean;
-} Mean;
+/* Returns the range over a texture's pixels of the brightest channel of its colour times a factor. */
+static ValueRange brightness_of(WeftImage image, const float factor[3]) {
+    ValueRange range = {INFINITY, -INFINITY};
+    size_t pixels = (size_t)image.width * (size_t)image.height;
+    for (size_t k = 0; k < pixels; k++) {
+        double most = 0.0;
+        for (int c = 0; c < 3; c++) {
+            double x = pixel_value(&image, k * (size_t)image.channels + (size_t)place_of(c, image.channels));
+            most = fmax(most, x <= 0.0 ? 0.0 : (image.type == WEFT_PIXEL_F32 ? x : linear_of(x)) * (double)factor[c]);
+        }
+        range.low = fmin(range.low, most);
+        range.high = fmax(range.high, most);
+    }
+    return range;
+}
 
 /* One material of the asset. */
 typedef struct AssetMaterial {
     double means[FACTORS][3]; /* mean of each factor's texture, by channel; 1 without a texture */
     int search;               /* index into `searches`; -1: the material has no sheen */
+    WeftMaterial factors;     /* the factors of the match of the mean, which may be above 1 */
 } AssetMaterial;
 
-/* One search, for all materials that are equal once textures are replaced by their means. */
+/* One search, for all materials whose textures have the same means and ranges. */
 typedef struct AverageSearch {
     MaterialKey key;      /* of `average` */
-    WeftMaterial average; /* such a material, without textures; the search replaces it by its match */
+    WeftMaterial average; /* without textures, which are replaced by their means; under profile `from` */
+    WeftMaterial matched; /* under profile `to` */
+    MatchCurves curves;   /* what becomes of texels */
+    WeftMatch found;
+} AverageSearch;
+
+/* One run of a search, for a mean or at a node of its curves. */
+typedef struct NodeSearch {
+    int search, index;
+    CurveNode node;
     WeftMatch found;
     WeftResult result;
     WeftError error;
-} AverageSearch;
+} NodeSearch;
 
 typedef struct AssetSearch {
     WeftScene *scene;
-    int from, to;                /* profiles */
-    int locked[WEFT_INPUTS_MAX]; /* not 0: the input keeps its value */
+    int from, to; /* profiles */
     WeftBrdfMetric metric;
     WeftProgress progress; /* may be NULL */
     void *user;
     LoopWatch watch;
-    Mean (*means)[2][4];      /* [texture - 1][0: data, 1: sRGB colours][channel] */
-    AssetMaterial *materials; /* `count` */
-    AverageSearch *searches;  /* `search_count`, at most `count` */
+    Channel (*channels)[2][4]; /* [texture - 1][0: data, 1: sRGB colours][channel] */
+    AssetMaterial *materials;  /* `count` */
+    AverageSearch *searches;   /* `search_count`, at most `count` */
+    NodeSearch *nodes;         /* of the phase in hand */
     WeftAssetMatch *matches;
     int count, search_count;
+    int done, whole, now; /* runs of phases that are done, of all phases, of the phase in hand */
 } AssetSearch;
 
-static double mean_of(AssetSearch *self, const WeftInput *input, int channel, bool color) {
-    if (!input->texture) return 1.0;
-    Mean *kept = &self->means[input->texture - 1][color][channel];
-    if (!kept->done)
-        *kept = (Mean){true, texture_mean(weft_scene_texture(self->scene, input->texture), channel, color)};
-    return kept->mean;
+static const Channel *channel_at(AssetSearch *self, const WeftInput *input, int channel, bool color) {
+    static const Channel one = {true, 1.0, {1.0, 1.0}};
+    if (!input->texture) return &one;
+    Channel *kept = &self->channels[input->texture - 1][color][channel];
+    if (!kept->done) *kept = channel_of(weft_scene_texture(self->scene, input->texture), channel, color);
+    return kept;
 }
 
 static void means_of(AssetSearch *self, const WeftMaterial *material, double means[FACTORS][3]) {
     for (int f = 0; f < FACTORS; f++) {
         const WeftInput *input = &material->inputs[factors[f]];
         bool color = input_value_count(factors[f]) > 1;
-        for (int c = 0; c < 3; c++) means[f][c] = mean_of(self, input, color ? c : input->channel, color);
+        for (int c = 0; c < 3; c++) means[f][c] = channel_at(self, input, color ? c : input->channel, color)->mean;
     }
 }
 
-/* Multiplies the factors by the means of their textures and removes the textures. */
-static void to_average(WeftMaterial *material, double means[FACTORS][3]) {
-    for (int f = 0; f < FACTORS; f++)
-        for (int c = 0; c < 3; c++) {
-            float *value = &material->inputs[factors[f]].value[c];
-            *value = (float)((double)*value * means[f][c]);
+/* Multiplies the numbers by the means of their textures and removes the textures. */
+static void to_average(AssetSearch *self, WeftMaterial *material) {
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        WeftInput *input = &material->inputs[k];
+        const WeftInputKind kind = input_infos[k].kind;
+        const bool color = kind == WEFT_INPUT_COLOR;
+        for (int c = 0; c < input_value_count((InputId)k) && (color || kind == WEFT_INPUT_SCALAR); c++) {
+            const double mean = channel_at(self, input, color ? c : input->channel, color)->mean;
+            input->value[c] = (float)((double)input->value[c] * mean);
         }
-    for (int k = 0; k < WEFT_INPUTS_MAX; k++) material->inputs[k].texture = 0;
+        input->texture = 0;
+    }
 }
 
-/* Undoes to_average: divides the numbers by the means. Returns 1 if a factor would exceed 1 and was clipped. */
-static int to_factors(WeftMaterial *material, double means[FACTORS][3]) {
-    int clipped = 0;
+/* Returns the range of a number times its texture. */
+static ValueRange range_of(AssetSearch *self, const WeftInput *input) {
+    const ValueRange range = channel_at(self, input, input->channel, false)->range;
+    const double factor = (double)input->value[0];
+    return (ValueRange){range.low * factor, range.high * factor};
+}
+
+/* Finds what the texels of a material vary in. */
+static MatchCurves curves_of(AssetSearch *self, const WeftMaterial *material) {
+    const WeftInput *color = &material->inputs[INPUT_sheen_color];
+    MatchCurves curves = {.sheen_roughness = range_of(self, &material->inputs[INPUT_sheen_roughness]),
+                          .roughness = range_of(self, &material->inputs[INPUT_roughness])};
+    if (color->texture)
+        curves.brightness = brightness_of(weft_scene_texture(self->scene, color->texture), color->value);
+    curves_begin(&curves, texels_joined(material));
+    return curves;
+}
+
+/* Undoes to_average: divides the numbers by the means. */
+static void to_factors(WeftMaterial *material, double means[FACTORS][3]) {
     for (int f = 0; f < FACTORS; f++)
         for (int c = 0; c < input_value_count(factors[f]); c++) {
             float *value = &material->inputs[factors[f]].value[c];
-            double factor = means[f][c] > 1e-4 ? (double)*value / means[f][c] : (double)*value;
-            clipped |= factor > 1.0 + 1e-6;
-            *value = (float)fmin(factor, 1.0);
+            if (means[f][c] > 1e-4) *value = (float)((double)*value / means[f][c]);
         }
+}
+
+/* Takes over the factors, of which glTF allows 1 at most. */
+static void factors_take(const WeftMaterial *from, WeftMaterial *to) {
+    for (int f = 0; f < FACTORS; f++)
+        for (int c = 0; c < input_value_count(factors[f]); c++)
+            to->inputs[factors[f]].value[c] = fminf(from->inputs[factors[f]].value[c], 1.0f);
+}
+
+/* Returns 1 if a factor was above 1 whose texture was not rewritten. */
+static int is_clipped(const WeftMaterial *material, uint64_t maps) {
+    int clipped = 0;
+    for (int f = 0; f < FACTORS; f++)
+        for (int c = 0; c < input_value_count(factors[f]); c++)
+            clipped |= !(maps >> factors[f] & 1) && material->inputs[factors[f]].value[c] > 1.0f + 1e-6f;
     return clipped;
 }
 
@@ -179,16 +249,24 @@ static void lock_rest(int locked[WEFT_INPUTS_MAX]) {
     }
 }
 
+static bool same_range(ValueRange a, ValueRange b) {
+    return fabs(a.low - b.low) <= 0.0 && fabs(a.high - b.high) <= 0.0;
+}
+
+static bool same_ranges(const MatchCurves *a, const MatchCurves *b) {
+    return same_range(a->sheen_roughness, b->sheen_roughness) && same_range(a->brightness, b->brightness) &&
+           same_range(a->roughness, b->roughness) && a->rows == b->rows;
+}
+
 /* Returns the index of the search for a material without textures; adds the search if there is none yet. */
-static int search_for(AssetSearch *self, const WeftMaterial *average) {
+static int search_for(AssetSearch *self, const WeftMaterial *average, const MatchCurves *curves) {
     const MaterialKey key = material_key(average);
     int k = 0;
-    while (k < self->search_count && !material_key_same(&self->searches[k].key, &key)) k++;
-    if (k == self->search_count) {
-        self->searches[k].key = key;
-        self->searches[k].average = *average;
-        self->search_count++;
-    }
+    while (k < self->search_count &&
+           !(material_key_same(&self->searches[k].key, &key) && same_ranges(&self->searches[k].curves, curves)))
+        k++;
+    if (k == self->search_count)
+        self->searches[self->search_count++] = (AverageSearch){.key = key, .average = *average, .curves = *curves};
     return k;
 }
 
@@ -204,42 +282,107 @@ static WeftResult plan(AssetSearch *self, WeftError *error) {
         match->matched = match->copied;
         if (result != WEFT_OK || !has_sheen(&match->copied)) continue;
         if (self->progress && self->progress(self->user, 0.0)) return WEFT_INTERRUPTED;
+        const MatchCurves curves = curves_of(self, &match->copied);
         WeftMaterial average = match->copied;
         means_of(self, &match->copied, material->means);
-        to_average(&average, material->means);
-        material->search = search_for(self, &average);
+        to_average(self, &average);
+        weft_material_choose(&average, CHOICE_profile, self->from);
+        material->search = search_for(self, &average, &curves);
     }
     return result;
 }
 
-static void search_run(void *user, int item, int thread) {
+/* The phases: the means, then those of the curves. */
+enum { PHASES = 1 + CURVE_PHASES };
+
+static int phase_runs(const AverageSearch *search, int phase) {
+    return phase == 0 ? 1 : curves_nodes(&search->curves, phase - 1);
+}
+
+static int phase_total(const AssetSearch *self, int phase) {
+    int total = 0;
+    for (int k = 0; k < self->search_count; k++) total += phase_runs(&self->searches[k], phase);
+    return total;
+}
+
+static void node_prepare(const AssetSearch *self, int phase, NodeSearch *run) {
+    const AverageSearch *search = &self->searches[run->search];
+    if (phase > 0) {
+        curves_node(&search->curves, phase - 1, run->index, &search->average, &search->matched, &run->node);
+        return;
+    }
+    run->node = (CurveNode){.from = search->average, .to = search->average};
+    weft_material_choose(&run->node.to, CHOICE_profile, self->to);
+    lock_rest(run->node.locked);
+}
+
+static void node_take(AssetSearch *self, int phase, const NodeSearch *run) {
+    AverageSearch *search = &self->searches[run->search];
+    if (phase > 0) {
+        curves_take(&search->curves, phase - 1, run->index, &run->node);
+        return;
+    }
+    search->matched = run->node.to;
+    search->found = run->found;
+}
+
+static void node_run(void *user, int item, int thread) {
     (void)thread;
     AssetSearch *self = user;
-    AverageSearch *search = &self->searches[item];
+    NodeSearch *run = &self->nodes[item];
     ItemProgress item_progress = {.watch = &self->watch};
     WeftReflection *original = NULL;
-    search->result = WEFT_INTERRUPTED;
+    run->result = WEFT_INTERRUPTED;
     if (!progress_report(&item_progress, 0.0)) return;
-    weft_material_choose(&search->average, CHOICE_profile, self->from);
-    search->result = weft_reflection_create(&search->average, &original, &search->error);
-    if (search->result != WEFT_OK) return;
-    weft_material_choose(&search->average, CHOICE_profile, self->to);
-    search->result = match_material(original, self->metric, self->locked, &item_progress, &search->average,
-                                    &search->found, &search->error);
+    run->result = weft_reflection_create(&run->node.from, &original, &run->error);
+    if (run->result != WEFT_OK) return;
+    run->result = match_material(original, self->metric, run->node.locked, &item_progress, &run->node.to, &run->found,
+                                 &run->error);
     weft_reflection_free(original);
     progress_report(&item_progress, 1.0);
 }
 
-static WeftResult search_all(AssetSearch *self, WeftError *error) {
-    lock_rest(self->locked);
-    if (!watch_loop(&self->watch, 0, self->search_count, search_run, self, self->progress, self->user))
-        return WEFT_INTERRUPTED;
-    for (int k = 0; k < self->search_count; k++) {
-        const AverageSearch *search = &self->searches[k];
-        if (search->result != WEFT_OK && error) *error = search->error;
-        if (search->result != WEFT_OK) return search->result;
+/* Reports the progress of a phase as that of all. */
+static int phase_progress(void *user, double fraction) {
+    AssetSearch *self = user;
+    return self->progress ? self->progress(self->user, (self->done + fraction * self->now) / self->whole) : 0;
+}
+
+static WeftResult phase_run(AssetSearch *self, int phase, WeftError *error) {
+    int run = 0;
+    for (int k = 0; k < self->search_count; k++)
+        for (int index = 0; index < phase_runs(&self->searches[k], phase); index++, run++) {
+            self->nodes[run] = (NodeSearch){.search = k, .index = index};
+            node_prepare(self, phase, &self->nodes[run]);
+        }
+    self->now = run;
+    self->watch = (LoopWatch){0};
+    if (!watch_loop(&self->watch, 0, run, node_run, self, phase_progress, self)) return WEFT_INTERRUPTED;
+    for (int k = 0; k < run; k++) {
+        if (self->nodes[k].result != WEFT_OK && error) *error = self->nodes[k].error;
+        if (self->nodes[k].result != WEFT_OK) return self->nodes[k].result;
+        node_take(self, phase, &self->nodes[k]);
     }
+    for (int k = 0; k < self->search_count && phase == 1; k++) curves_straighten(&self->searches[k].curves);
+    self->done += run;
     return WEFT_OK;
+}
+
+static WeftResult search_all(AssetSearch *self, WeftError *error) {
+    int most = 0;
+    for (int phase = 0; phase < PHASES; phase++) {
+        const int total = phase_total(self, phase);
+        self->whole += total;
+        if (total > most) most = total;
+    }
+    self->nodes = alloc_array((size_t)most, sizeof *self->nodes);
+    if (!self->nodes) return fail(error, WEFT_MESSAGE_MEMORY, "a match", NULL);
+    WeftResult result = WEFT_OK;
+    for (int phase = 0; phase < PHASES && result == WEFT_OK; phase++)
+        if (phase_total(self, phase) > 0) result = phase_run(self, phase, error);
+    free(self->nodes);
+    self->nodes = NULL;
+    return result;
 }
 
 /* Writes the result of each search to its materials, as factors. */
@@ -249,11 +392,10 @@ static void write_matches(AssetSearch *self) {
         AssetMaterial *material = &self->materials[k];
         if (material->search < 0) continue;
         const AverageSearch *search = &self->searches[material->search];
-        WeftMaterial found = search->average;
+        material->factors = search->matched;
+        to_factors(&material->factors, material->means);
         match->found = search->found;
-        match->clipped = to_factors(&found, material->means);
-        for (int f = 0; f < FACTORS; f++)
-            memcpy(match->matched.inputs[factors[f]].value, found.inputs[factors[f]].value, sizeof found.inputs->value);
+        factors_take(&material->factors, &match->matched);
         match->changed = 1;
         match->search = material->search + 1;
     }
@@ -262,11 +404,11 @@ static void write_matches(AssetSearch *self) {
 static WeftResult asset_match(AssetSearch *self, WeftError *error) {
     self->count = self->scene->material_count;
     size_t count = (size_t)self->count;
-    self->means = alloc_array((size_t)self->scene->texture_count, sizeof *self->means);
+    self->channels = alloc_array((size_t)self->scene->texture_count, sizeof *self->channels);
     self->materials = alloc_array(count, sizeof *self->materials);
     self->searches = alloc_array(count, sizeof *self->searches);
     self->matches = alloc_array(count, sizeof *self->matches);
-    if (!self->means || !self->materials || !self->searches || !self->matches)
+    if (!self->channels || !self->materials || !self->searches || !self->matches)
         return fail(error, WEFT_MESSAGE_MEMORY, "a match", NULL);
     WeftResult result = plan(self, error);
     if (result == WEFT_OK) result = search_all(self, error);
@@ -274,11 +416,27 @@ static WeftResult asset_match(AssetSearch *self, WeftError *error) {
     return result;
 }
 
+/* Rewrites the textures and the factors of a material. */
+static WeftResult material_rewrite(const AssetSearch *self, Rewrite *rewrite, int index, WeftError *error) {
+    json_t *material = json_array_get(json_object_get(rewrite->root, "materials"), (size_t)index);
+    WeftAssetMatch *match = &self->matches[index];
+    const TexelMatch texels = {.scene = self->scene,
+                               .material = &match->copied,
+                               .curves = &self->searches[match->search - 1].curves,
+                               .factors = &self->materials[index].factors,
+                               .progress = self->progress,
+                               .user = self->user};
+    if (!material) return WEFT_OK;
+    WeftResult result = texels_rewrite(&texels, rewrite, material, &match->matched, &match->maps, error);
+    match->clipped = is_clipped(&self->materials[index].factors, match->maps);
+    return result == WEFT_OK ? material_write(rewrite, index, match, error) : result;
+}
+
 static WeftResult asset_write(const AssetSearch *self, Asset *asset, const char *out, WeftError *error) {
     Rewrite rewrite;
     WeftResult result = rewrite_begin(&rewrite, asset, error);
     for (int k = 0; k < self->count && result == WEFT_OK; k++)
-        if (self->matches[k].changed) result = material_write(&rewrite, k, &self->matches[k], error);
+        if (self->matches[k].changed) result = material_rewrite(self, &rewrite, k, error);
     if (result == WEFT_OK) result = rewrite_save(&rewrite, out, error);
     rewrite_end(&rewrite);
     return result;
@@ -323,7 +481,7 @@ WeftResult weft_match_asset(const char *path, const char *out, int from, int to,
     free(self.matches);
     free(self.searches);
     free(self.materials);
-    free(self.means);
+    free(self.channels);
     weft_scene_free(self.scene);
     return result;
 }
