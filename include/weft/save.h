@@ -1,4 +1,4 @@
-/* save.h - saving a material as a small JSON file and a scene as glTF */
+/* save.h - saving a material as a small JSON file or as MaterialX, and a scene as glTF */
 #ifndef WEFT_SAVE_H
 #define WEFT_SAVE_H
 
@@ -13,6 +13,23 @@ extern "C" {
  * textures by paths from its folder. weft_scene_assign_material of the file gives the same material. The file appears
  * complete or not at all. Fails with WEFT_MESSAGE_MATERIAL_NAME, _FILE_WRITE or _MEMORY. */
 WEFT_API WeftResult weft_scene_save_material(const WeftScene *scene, int index, const char *path, WeftError *error);
+
+/* The surface nodes of MaterialX 1.39 that a material can be written as. */
+typedef enum WeftMtlxNode {
+    WEFT_MTLX_OPEN_PBR = 0, /* open_pbr_surface, whose rim is fuzz: sheen_bsdf of mode zeltner */
+    WEFT_MTLX_GLTF,         /* gltf_pbr, whose rim is sheen: sheen_bsdf of mode conty_kulla */
+    WEFT_MTLX_STANDARD,     /* standard_surface, with the same sheen and another unit of roughness */
+    WEFT_MTLX_NODES
+} WeftMtlxNode;
+
+/* Returns "open_pbr_surface", "gltf_pbr" or "standard_surface"; NULL past the end. */
+WEFT_API const char *weft_mtlx_node_name(int node);
+
+/* Writes material index as a MaterialX document, .mtlx: one surface node with a graph of its textures, which lie as
+ * weft_scene_save_material leaves them. A line of log (may be NULL) says each part that the node cannot express: threads,
+ * nap, lobes. Fails as weft_scene_save_material. */
+WEFT_API WeftResult weft_scene_save_mtlx(const WeftScene *scene, int index, const char *path, WeftMtlxNode node,
+                                         const WeftLog *log, WeftError *error);
 
 /* Writes the scene as it is as .glb, or as .gltf with a .bin and images beside it: meshes in world space; materials
  * with the extensions KHR_materials_sheen, _clearcoat, _anisotropy, _specular, _ior, _diffuse_transmission,

@@ -12,7 +12,7 @@ static inline bool path_ends(const char *path, const char *suffix) {
     return length > size && strcasecmp(path + length - size, suffix) == 0;
 }
 
-/* Returns true for a material of the textile industry, .u3m or .u3ma, which is a scene too: the built-in cloth in it. */
+/* Returns true for a material of the textile industry, .u3m or .u3ma. */
 static inline bool path_is_u3m(const char *path) { return path_ends(path, ".u3m") || path_ends(path, ".u3ma"); }
 
 /* Returns NAME of builtin:NAME, a scene that the program brings, or NULL where the path is a file's. */
@@ -21,8 +21,11 @@ static inline const char *path_builtin(const char *path) {
     return strncmp(path, prefix, sizeof prefix - 1) == 0 ? path + sizeof prefix - 1 : NULL;
 }
 
-/* Returns true if the path is shown on a scene that the program brings: builtin:NAME, or a U3M. */
-static inline bool path_is_on_builtin(const char *path) { return path_builtin(path) || path_is_u3m(path); }
+/* Returns true for a file that is a material and may be named as a scene, which is the built-in cloth in it. */
+static inline bool path_is_cloth(const char *path) { return path_is_u3m(path) || path_ends(path, ".mtlx"); }
+
+/* Returns true if the path is shown on a scene that the program brings: builtin:NAME, or a material. */
+static inline bool path_is_on_builtin(const char *path) { return path_builtin(path) || path_is_cloth(path); }
 
 enum { PATH_NUMBER = 16 };
 

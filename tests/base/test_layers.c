@@ -40,6 +40,7 @@ static const char *const folders[] = {
     "brdf",
     "scene/record",
     "scene/u3m",
+    "scene/mtlx",
     "scene/material",
     "scene/light",
     "scene/builtin",

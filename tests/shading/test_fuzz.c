@@ -1,7 +1,7 @@
 /* Fuzz: where it is seen and the sheen is not, what lies over what, its R, and the sheen that stands for it */
 #include "cases.h"
 #include "fibre/slab.h"
-#include "gltf/save/fuzz_sheen.h"
+#include "scene/record/fuzz_sheen.h"
 #include "scene/record/material_at.h"
 
 static int profile_named(const char *id) {

@@ -10,11 +10,20 @@
 #include "weft/material.h"
 #include "weft/save.h"
 
+/* Returns the node of MaterialX that --mtlx names, or -1 after one line. */
+static int mtlx_node(const Options *options) {
+    const char *names[WEFT_MTLX_NODES + 1] = {NULL};
+    int node = WEFT_MTLX_OPEN_PBR;
+    for (int k = 0; k < WEFT_MTLX_NODES; k++) names[k] = weft_mtlx_node_name(k);
+    return option_given(options, "--mtlx") && !option_choice(options, "--mtlx", names, &node) ? -1 : node;
+}
+
 int save_check(const Options *options) {
-    int cursor = 0, result = 0;
+    int cursor = 0, result = mtlx_node(options) < 0 ? WEFT_USAGE : 0;
     for (const char *path; !result && (path = option_next(options, "--save", &cursor));) {
-        if (!path_ends(path, ".glb") && !path_ends(path, ".gltf") && !path_ends(path, ".json"))
-            return report(WEFT_USAGE, "--save: \"%.200s\" is not a .glb, .gltf or .json file", path);
+        if (!path_ends(path, ".glb") && !path_ends(path, ".gltf") && !path_ends(path, ".json") &&
+            !path_ends(path, ".mtlx"))
+            return report(WEFT_USAGE, "--save: \"%.200s\" is not a .glb, .gltf, .json or .mtlx file", path);
         result = output_probe(path);
     }
     return result;
@@ -52,10 +61,16 @@ WeftResult save_all(const Options *options, const WeftScene *scene, WeftError *e
     WeftResult result = WEFT_OK;
     int cursor = 0;
     for (const char *path; result == WEFT_OK && (path = option_next(options, "--save", &cursor));) {
-        bool material = path_ends(path, ".json");
-        result = material ? weft_scene_save_material(scene, save_cloth_of(scene), path, error)
-                          : weft_scene_save(scene, path, error);
-        if (result == WEFT_OK && !material) warn_of_measured(options, scene, path);
+        if (path_ends(path, ".json")) {
+            result = weft_scene_save_material(scene, save_cloth_of(scene), path, error);
+        } else if (path_ends(path, ".mtlx")) {
+            const WeftLog log = {.fn = option_given(options, "--quiet") ? NULL : report_warning};
+            result =
+                weft_scene_save_mtlx(scene, save_cloth_of(scene), path, (WeftMtlxNode)mtlx_node(options), &log, error);
+        } else {
+            result = weft_scene_save(scene, path, error);
+            if (result == WEFT_OK) warn_of_measured(options, scene, path);
+        }
     }
     return result;
 }

@@ -1,4 +1,4 @@
-/* save.h - option --save: a scene as glTF, or one material as JSON */
+/* save.h - option --save: a scene as glTF, or one material as JSON or MaterialX */
 #pragma once
 
 #include "cli/console/options.h"

@@ -208,7 +208,7 @@ static int of_name(Model *model, const Parts *parts) {
         *end = '\0';
         return of_scene(model, parts->name, wanted);
     }
-    if (path_ends(parts->name, ".json") || path_is_u3m(parts->name)) return of_material(model, parts->name);
+    if (path_ends(parts->name, ".json") || path_is_cloth(parts->name)) return of_material(model, parts->name);
     if (!weft_reflection_readable(parts->name)) return report_unknown(parts->name);
     model->kind = MODEL_MEASURED;
     snprintf(model->path, sizeof model->path, "%s", parts->name);

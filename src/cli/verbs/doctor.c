@@ -262,7 +262,7 @@ static int visit_make(Visit *visit) {
     if (path_builtin(visit->path))
         return report(WEFT_INPUT, "%s: has no file; weft render %s --save FILE.glb makes one", visit->path,
                       visit->path);
-    if (path_is_u3m(visit->path))
+    if (path_is_cloth(visit->path))
         return report(WEFT_INPUT, "%s: is a material and no glTF; weft render %s says what of it is not shown",
                       visit->path, visit->path);
     result = examine(visit);

@@ -110,7 +110,8 @@ const Verb verb_render = {
     .operands_most = EACH_MOST,
     .options = request_options,
     .notes = "SCENE is a .gltf or .glb file (glTF 2.0; docs/gltf.md has the limits),\n"
-             "builtin:NAME or a material .u3m on builtin:cloth. `weft models` lists all ids.\n"
+             "builtin:NAME, or a material .u3m or .mtlx on builtin:cloth. `weft models` lists\n"
+             "all ids.\n"
              "--workflow, --profile, --diffuse, --sheen, --layer and --set may have several\n"
              "values: then OUT is a sheet with a picture for each and, below, how it differs\n"
              "from the first. Numbers and ids have a comma between them, colours a semicolon,\n"
@@ -129,6 +130,7 @@ const Verb verb_render = {
              "  weft render builtin:cloth -o mine.png --material Cloth=mine.json \\\n"
              "       --set '*.sheen_roughness=0.3'\n"
              "  weft render chair.glb --save velvet-chair.glb --preset velvet\n"
+             "  weft render builtin:cloth --preset silk --save silk.mtlx --mtlx gltf_pbr\n"
              "  weft render builtin:cloth -o sheet.png \\\n"
              "       --sheen ashikhmin-neubelt,charlie-neubelt\n"
              "  weft render builtin:spheres -o row.png --workflow disney \\\n"

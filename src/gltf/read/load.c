@@ -49,7 +49,7 @@ static WeftResult load(const char *path, const void *data, size_t size, Watcher 
     WeftScene *scene = scene_create(path);
     if (!scene) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
     WeftResult result;
-    const bool alone = !data && path_is_u3m(path); /* a material, which the built-in cloth is of */
+    const bool alone = !data && path_is_cloth(path); /* a material, which the built-in cloth is of */
     if (alone || (!data && path_builtin(path)))
         result = load_builtin(alone ? "builtin:cloth" : path, watcher, scene, error);
     else

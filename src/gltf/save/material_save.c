@@ -10,7 +10,7 @@
 #include "base/equal.h"
 #include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf_material.h"
-#include "gltf/save/fuzz_sheen.h"
+#include "scene/record/fuzz_sheen.h"
 #include "gltf/save/saving.h"
 #include "scene/material/cloth_file.h"
 #include "scene/material/material_numbers.h"

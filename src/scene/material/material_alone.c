@@ -12,6 +12,7 @@
 #include "scene/material/presets.h"
 #include "scene/material/set.h"
 #include "scene/material/u3m.h"
+#include "scene/mtlx/mtlx_read.h"
 
 const char *weft_preset_name(int index) { return preset_at(index) ? preset_at(index)->name : NULL; }
 const char *weft_preset_group(int index) { return preset_at(index) ? preset_at(index)->group : NULL; }
@@ -39,6 +40,20 @@ static WeftResult load_preset(const char *name, MaterialFile *out, WeftError *er
     return fail(error, WEFT_MESSAGE_PRESET_NAME, name, "`weft models` lists them");
 }
 
+/* Reads a MaterialX document as the material file that it amounts to. */
+static WeftResult read_mtlx(const FileBytes *bytes, const char *path, const char *folder, MaterialFile *out,
+                            const WeftLog *log, WeftError *error) {
+    json_t *json;
+    WeftResult result = mtlx_read(bytes->data, bytes->size, path, &json, log, error);
+    if (result != WEFT_OK) return result;
+    char *text = json_dumps(json, JSON_REAL_PRECISION(9));
+    json_decref(json);
+    if (!text) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    result = material_file_read(text, strlen(text), path, folder, out, log, error);
+    free(text);
+    return result;
+}
+
 WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog *log, WeftError *error) {
     static const char prefix[] = "preset:";
     const size_t limit = (size_t)1 << 20;
@@ -50,8 +65,12 @@ WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog
     if (result != WEFT_OK) return result;
     char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
     if (folder) *(slash ? slash + 1 : folder) = '\0';
-    result = folder ? material_file_read(bytes.data, bytes.size, path, folder, out, log, error)
-                    : fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    if (!folder)
+        result = fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    else if (path_ends(path, ".mtlx"))
+        result = read_mtlx(&bytes, path, folder, out, log, error);
+    else
+        result = material_file_read(bytes.data, bytes.size, path, folder, out, log, error);
     free(folder);
     free(bytes.data);
     return result;

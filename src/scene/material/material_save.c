@@ -13,6 +13,7 @@
 #include "brdf/measured.h"
 #include "scene/material/cloth_file.h"
 #include "scene/material/relief.h"
+#include "scene/mtlx/mtlx_write.h"
 #include "scene/record/scene.h"
 #include "shading/material/choice.h"
 #include "weave/weft_cloth.h"
@@ -27,6 +28,7 @@ typedef struct Writer {
     Arena arena;
     json_t *root;                   /* the material, or its back */
     const char *part;               /* between the names of the file and of an input: "-", of a back "-back-" */
+    const char *floats;             /* the suffix of a picture of floats */
     const char *files[INPUT_COUNT]; /* files with an input's texture, as the material file names them */
 } Writer;
 
@@ -100,11 +102,11 @@ static char *relative(Writer *w, const char *folder, const char *file) {
     return path;
 }
 
-/* Writes an image beside the material file: integers as .png, floats as .npy. Returns its name. */
+/* Writes an image beside the material file: integers as .png, floats as w->floats says. Returns its name. */
 static const char *write_picture(Writer *w, const WeftImage *image, InputId id) {
     const char *dot = strrchr(w->path, '.'), *slash = strrchr(w->path, '/');
     int stem = dot && (!slash || dot > slash) ? (int)(dot - w->path) : (int)strlen(w->path);
-    const char *name = input_infos[id].name, *suffix = image->type == WEFT_PIXEL_F32 ? "npy" : "png";
+    const char *name = input_infos[id].name, *suffix = image->type == WEFT_PIXEL_F32 ? w->floats : "png";
     size_t size = (size_t)stem + strlen(w->part) + strlen(name) + 8;
     char *path = arena_array(&w->arena, size, 1);
     if (!path) {
@@ -123,7 +125,7 @@ static const char *file_of(Writer *w, const Material *material, InputId id) {
     const Texture *texture = &w->scene->textures[material->inputs[id].texture - 1];
     for (int k = 0; k < (int)id; k++) {
         int other = material->inputs[k].texture;
-        if (other && w->scene->textures[other - 1].image == texture->image) return w->files[k];
+        if (other && w->files[k] && w->scene->textures[other - 1].image == texture->image) return w->files[k];
     }
     const bool own = texture->path && !texture->inverted;
     char *folder = folder_of(w->path), *full = own ? realpath(texture->path, NULL) : NULL;
@@ -246,13 +248,17 @@ static void write_file(Writer *w) {
     free(text);
 }
 
+static WeftResult check_index(const WeftScene *scene, int index, WeftError *error) {
+    char names[NAMES_SIZE], text[16];
+    if (index >= 0 && index < scene->material_count) return WEFT_OK;
+    snprintf(text, sizeof text, "%d", index);
+    return fail(error, WEFT_MESSAGE_MATERIAL_NAME, text, "%s", scene_names(scene, weft_scene_material_name, names));
+}
+
 WeftResult weft_scene_save_material(const WeftScene *scene, int index, const char *path, WeftError *error) {
-    if (index < 0 || index >= scene->material_count) {
-        char names[NAMES_SIZE], text[16];
-        snprintf(text, sizeof text, "%d", index);
-        return fail(error, WEFT_MESSAGE_MATERIAL_NAME, text, "%s", scene_names(scene, weft_scene_material_name, names));
-    }
-    Writer writer = {.scene = scene, .path = path, .error = error, .root = json_object(), .part = "-"};
+    const WeftResult checked = check_index(scene, index, error);
+    if (checked != WEFT_OK) return checked;
+    Writer writer = {.scene = scene, .path = path, .error = error, .root = json_object(), .part = "-", .floats = "npy"};
     const Material given = relief_given(scene, index);
     write_inputs(&writer, &given);
     write_rest(&writer, &given);
@@ -261,4 +267,34 @@ WeftResult weft_scene_save_material(const WeftScene *scene, int index, const cha
     json_decref(writer.root);
     arena_free(&writer.arena);
     return writer.result;
+}
+
+WeftResult weft_scene_save_mtlx(const WeftScene *scene, int index, const char *path, WeftMtlxNode node,
+                                const WeftLog *log, WeftError *error) {
+    const WeftResult checked = check_index(scene, index, error);
+    if (checked != WEFT_OK) return checked;
+    if ((unsigned)node >= WEFT_MTLX_NODES) return fail(error, WEFT_MESSAGE_DESC, path, "no such node of MaterialX");
+    Writer w = {.scene = scene, .path = path, .error = error, .part = "-", .floats = "exr"};
+    const Material given = relief_given(scene, index);
+    Material turned = given;
+    mtlx_to_node(node, &turned);
+    for (int k = 0; k < INPUT_COUNT && w.result == WEFT_OK; k++)
+        if (turned.inputs[k].texture && mtlx_row_of(&mtlx_nodes[node], k))
+            w.files[k] = file_of(&w, &turned, (InputId)k);
+    const MtlxWriting writing = {.node = node,
+                                 .name = scene->material_names[index],
+                                 .material = &turned,
+                                 .textures = scene->textures,
+                                 .images = scene->images,
+                                 .files = w.files};
+    OutputFile file;
+    if (w.result == WEFT_OK) w.result = output_open(&file, path, error);
+    if (w.result == WEFT_OK) {
+        mtlx_write(&writing, file.stream);
+        w.result = output_commit(&file, error);
+    }
+    const bool back = index < scene->back_count && scene->backs[index] == BACK_GIVEN;
+    if (w.result == WEFT_OK) mtlx_losses(&writing, &given, back, path, log);
+    arena_free(&w.arena);
+    return w.result;
 }

@@ -19,11 +19,11 @@ PathKind path_kind(const char *path) {
     static const struct {
         const char *suffix;
         PathKind kind;
-    } kinds[] = {{".gltf", PATH_SCENE},    {".glb", PATH_SCENE},    {".hdr", PATH_LIGHT},   {".exr", PATH_LIGHT},
-                 {".json", PATH_MATERIAL}, {".png", PATH_PICTURE},  {".jpg", PATH_PICTURE}, {".jpeg", PATH_PICTURE},
-                 {".webp", PATH_PICTURE},  {".tga", PATH_PICTURE},  {".tif", PATH_PICTURE}, {".tiff", PATH_PICTURE},
-                 {".ktx2", PATH_PICTURE},  {".h", PATH_LOBE},       {".wif", PATH_DRAFT},   {".dtx", PATH_DRAFT},
-                 {".u3m", PATH_MATERIAL},  {".u3ma", PATH_MATERIAL}};
+    } kinds[] = {{".gltf", PATH_SCENE},    {".glb", PATH_SCENE},     {".hdr", PATH_LIGHT},    {".exr", PATH_LIGHT},
+                 {".json", PATH_MATERIAL}, {".png", PATH_PICTURE},   {".jpg", PATH_PICTURE},  {".jpeg", PATH_PICTURE},
+                 {".webp", PATH_PICTURE},  {".tga", PATH_PICTURE},   {".tif", PATH_PICTURE},  {".tiff", PATH_PICTURE},
+                 {".ktx2", PATH_PICTURE},  {".h", PATH_LOBE},        {".wif", PATH_DRAFT},    {".dtx", PATH_DRAFT},
+                 {".u3m", PATH_MATERIAL},  {".u3ma", PATH_MATERIAL}, {".mtlx", PATH_MATERIAL}};
     struct stat s;
     if (path_builtin(path)) return PATH_SCENE;
     if (strncmp(path, "preset:", 7) == 0) return PATH_MATERIAL;

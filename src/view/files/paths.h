@@ -8,7 +8,7 @@ typedef enum PathKind {
     PATH_UNKNOWN,
     PATH_SCENE,    /* .gltf .glb builtin: */
     PATH_LIGHT,    /* .hdr .exr */
-    PATH_MATERIAL, /* .json .u3m .u3ma preset: */
+    PATH_MATERIAL, /* .json .u3m .u3ma .mtlx preset: */
     PATH_LOBE,     /* .h */
     PATH_DRAFT,    /* .wif .dtx */
     PATH_PICTURE,  /* .png .jpg .jpeg .webp .tga .tif .tiff .ktx2 */

@@ -1,4 +1,4 @@
-#include "gltf/save/fuzz_sheen.h"
+#include "scene/record/fuzz_sheen.h"
 
 #include <math.h>
 
@@ -29,4 +29,23 @@ void fuzz_sheen_put(Material *material) {
     *roughness = inputs[INPUT_fuzz_roughness];
     for (int c = 0; c < 3; c++) color->value[c] = fminf(color->value[c] * amount, 1.0f);
     roughness->value[0] = mix(sheens[k].roughness, sheens[k + 1].roughness, t);
+}
+
+void sheen_fuzz_put(Material *material) {
+    Input *inputs = material->inputs, *color = &inputs[INPUT_fuzz_color], *roughness = &inputs[INPUT_fuzz_roughness];
+    const float amount = inputs[INPUT_sheen].value[0], *s = inputs[INPUT_sheen_color].value;
+    if (material_choices(material).rim == RIM_FUZZ) return;
+    const float most = fmaxf(fmaxf(s[0], s[1]), s[2]), wanted = inputs[INPUT_sheen_roughness].value[0];
+    inputs[INPUT_fuzz].value[0] = 0.0f;
+    if (!(amount * most > 0.0f)) return;
+    int k = 1;
+    while (k < SHEENS - 4 && sheens[k + 1].roughness < wanted) k++;
+    const float step = sheens[k + 1].roughness - sheens[k].roughness;
+    const float t = clamp((wanted - sheens[k].roughness) / step, 0.0f, 1.0f);
+    *color = inputs[INPUT_sheen_color];
+    for (int c = 0; c < 3; c++) color->value[c] /= most;
+    *roughness = inputs[INPUT_sheen_roughness];
+    roughness->value[0] = (to_float(k) + t) / (SHEENS - 1);
+    inputs[INPUT_fuzz].value[0] = fminf(amount * most / mix(sheens[k].color, sheens[k + 1].color, t), 1.0f);
+    inputs[INPUT_fuzz].texture = 0;
 }

@@ -1,0 +1,73 @@
+/* mtlx_nodes.h - MaterialX's surface nodes whose inputs are a material's: names, types and defaults
+ *
+ *   AcademySoftwareFoundation/MaterialX 1.39, libraries/bxdf/open_pbr_surface.mtlx (version 1.1 of the node),
+ * gltf_pbr.mtlx (2.0.1), standard_surface.mtlx (1.0.1). */
+#pragma once
+
+#include "scene/record/scene.h"
+#include "weft/save.h"
+
+/* GREY is a color3 of one number. NORMAL and TANGENT are vectors that a graph makes. */
+typedef enum MtlxType {
+    MTLX_FLOAT,
+    MTLX_COLOR,
+    MTLX_GREY,
+    MTLX_NORMAL,
+    MTLX_TANGENT,
+    MTLX_INTEGER,
+    MTLX_BOOLEAN
+} MtlxType;
+
+/* What number of the material an input of a node is. */
+typedef enum MtlxRule {
+    MTLX_SAME,       /* that of the weft input */
+    MTLX_SQUARE,     /* its square: an alpha for a roughness */
+    MTLX_WEIGHT,     /* a factor on the weft input, which another row has too; written as 1 */
+    MTLX_MAP,        /* its texture without the number, which is a strength here */
+    MTLX_ALPHA_MODE, /* 0 opaque, 1 mask, 2 blend */
+    MTLX_ALPHA_CUTOFF,
+    MTLX_TWO_SIDED
+} MtlxRule;
+
+typedef struct MtlxRow {
+    const char *name;
+    MtlxType type;
+    MtlxRule rule;
+    int input;     /* InputId; -1: none */
+    float initial; /* the default of the node, of all channels */
+} MtlxRow;
+
+/* How a node has two numbers for two widths of a highlight. */
+typedef enum MtlxStretch { MTLX_STRETCH_NONE, MTLX_STRETCH_OPENPBR, MTLX_STRETCH_ASPECT } MtlxStretch;
+
+typedef struct MtlxNodeInfo {
+    const char *id;
+    const MtlxRow *rows;        /* until a name of NULL */
+    const char *const *unshown; /* inputs that switch on what weft does not show, 0 by default; until NULL */
+    const char *choices;        /* "name=value name=value": choices that are as the node has it */
+    const char *shader;         /* "profile" or "workflow", and its id, of a material that is read */
+    const char *shader_id;
+    MtlxStretch stretch;
+} MtlxNodeInfo;
+
+extern const MtlxNodeInfo mtlx_nodes[WEFT_MTLX_NODES];
+
+/* Returns the name of a row's type in a file: "float", "color3", "vector3", "integer" or "boolean". */
+const char *mtlx_type_name(MtlxType type);
+
+/* Returns the row of an input of the node, or NULL. */
+const MtlxRow *mtlx_row(const MtlxNodeInfo *node, const char *name);
+
+/* Returns the first row, not of a weight, that is made of a weft input, or NULL. */
+const MtlxRow *mtlx_row_of(const MtlxNodeInfo *node, int input);
+
+/* Turns a placement of texture coordinates whose v runs down, as glTF's does, into one whose v runs up, as MaterialX's
+ * does, and back. */
+void mtlx_flip(const float from[6], float to[6]);
+
+/* Turns the numbers of a material into those that the node asks for in the same inputs: of any workflow into those of a
+ * metallic one with an ior; sheen and fuzz into what the node has, as a weight and a colour; widths of highlights. */
+void mtlx_to_node(WeftMtlxNode node, Material *material);
+
+/* Turns widths of highlights that were read from a node into a roughness and an anisotropy. */
+void mtlx_from_node(WeftMtlxNode node, Material *material);
