@@ -273,7 +273,7 @@ static void every_preset_is_written_as_every_node(void **state) {
     assert_true(written > 60);
 }
 
-static void what_is_lost_is_said(void **state) {
+static void lost_parts_have_a_line_each(void **state) {
     (void)state;
     const char *path = "lost.mtlx";
     WeftScene *scene = cloth();
@@ -443,7 +443,7 @@ static void others_are_refused_in_one_line(void **state) {
 }
 
 /* A circle of nodes, and a chain whose steps double, end at once and with a warning. */
-static void circles_end(void **state) {
+static void circles_of_nodes_are_passed_over(void **state) {
     (void)state;
     const char *path = "circle.mtlx";
     FILE *out = fopen(path, "w");
@@ -469,15 +469,11 @@ static void circles_end(void **state) {
 int main(void) {
     char folder[SCRATCH_SIZE];
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_survive_the_round_trip),
-        cmocka_unit_test(the_rim_is_that_of_the_node),
-        cmocka_unit_test(workflows_become_reflections),
-        cmocka_unit_test(every_preset_is_written_as_every_node),
-        cmocka_unit_test(what_is_lost_is_said),
-        cmocka_unit_test(textures_survive_the_round_trip),
-        cmocka_unit_test(documents_of_others_are_read),
-        cmocka_unit_test(others_are_refused_in_one_line),
-        cmocka_unit_test(circles_end),
+        cmocka_unit_test(numbers_survive_the_round_trip),   cmocka_unit_test(the_rim_is_that_of_the_node),
+        cmocka_unit_test(workflows_become_reflections),     cmocka_unit_test(every_preset_is_written_as_every_node),
+        cmocka_unit_test(lost_parts_have_a_line_each),      cmocka_unit_test(textures_survive_the_round_trip),
+        cmocka_unit_test(documents_of_others_are_read),     cmocka_unit_test(others_are_refused_in_one_line),
+        cmocka_unit_test(circles_of_nodes_are_passed_over),
     };
     if (!scratch_enter(folder)) return 1;
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -276,14 +276,14 @@ WeftResult weft_scene_save_mtlx(const WeftScene *scene, int index, const char *p
     if ((unsigned)node >= WEFT_MTLX_NODES) return fail(error, WEFT_MESSAGE_DESC, path, "no such node of MaterialX");
     Writer w = {.scene = scene, .path = path, .error = error, .part = "-", .floats = "exr"};
     const Material given = relief_given(scene, index);
-    Material turned = given;
-    mtlx_to_node(node, &turned);
+    Material written = given;
+    mtlx_to_node(node, &written);
     for (int k = 0; k < INPUT_COUNT && w.result == WEFT_OK; k++)
-        if (turned.inputs[k].texture && mtlx_row_of(&mtlx_nodes[node], k))
-            w.files[k] = file_of(&w, &turned, (InputId)k);
+        if (written.inputs[k].texture && mtlx_row_of(&mtlx_nodes[node], k))
+            w.files[k] = file_of(&w, &written, (InputId)k);
     const MtlxWriting writing = {.node = node,
                                  .name = scene->material_names[index],
-                                 .material = &turned,
+                                 .material = &written,
                                  .textures = scene->textures,
                                  .images = scene->images,
                                  .files = w.files};

@@ -11,10 +11,10 @@
 /* The walk through a graph, which ends after so many nodes: two inputs a node would double the steps of each. */
 enum { STEPS = 1000 };
 
-typedef struct Walk {
+typedef struct GraphWalk {
     int depth, steps;
     const XmlElement *strange;
-} Walk;
+} GraphWalk;
 
 bool mtlx_numbers(const char *text, float *values, int count) {
     for (int k = 0; text && k < count; k++) {
@@ -41,7 +41,7 @@ static const XmlElement *target(const XmlElement *input, const char **output) {
     const char *nodename = xml_attribute(input, "nodename"), *graph = xml_attribute(input, "nodegraph");
     const char *interface = xml_attribute(input, "interfacename");
     *output = xml_attribute(input, "output");
-    if (strcmp(input->name, "output") == 0) scope = node; /* it lies in the graph itself */
+    if (strcmp(input->name, "output") == 0) scope = node; /* an output lies in the graph itself */
     if (!scope) return NULL;
     if (nodename) return xml_child(scope, nodename);
     if (interface) return xml_child(scope, interface);
@@ -53,12 +53,12 @@ static const XmlElement *target(const XmlElement *input, const char **output) {
     return end;
 }
 
-static bool strange(Walk *walk, const XmlElement *node) {
+static bool strange(GraphWalk *walk, const XmlElement *node) {
     if (!walk->strange) walk->strange = node;
     return false;
 }
 
-static bool follow(Walk *walk, const XmlElement *input, MtlxSource *out);
+static bool follow(GraphWalk *walk, const XmlElement *input, MtlxSource *out);
 
 /* Reads the numbers of an input of a node; where the node lacks it, it has those of `values`. */
 static bool given_numbers(const XmlElement *node, const char *name, float *values, int count) {
@@ -67,15 +67,15 @@ static bool given_numbers(const XmlElement *node, const char *name, float *value
 }
 
 /* Texture coordinates, or one of them: rows of (u, v, 1). */
-typedef struct Place {
+typedef struct UvRows {
     float row[2][3];
     int texcoord;
-} Place;
+} UvRows;
 
-static bool follow_place(Walk *walk, const XmlElement *input, Place *out);
+static bool follow_place(GraphWalk *walk, const XmlElement *input, UvRows *out);
 
-static bool place_of_two(Walk *walk, const XmlElement *node, Place *out) {
-    Place second;
+static bool place_of_two(GraphWalk *walk, const XmlElement *node, UvRows *out) {
+    UvRows second;
     const XmlElement *a = xml_child(node, "in1"), *b = xml_child(node, "in2");
     if (!a || !b || !follow_place(walk, a, out) || !follow_place(walk, b, &second)) return strange(walk, node);
     memcpy(out->row[1], second.row[0], sizeof second.row[0]);
@@ -83,7 +83,7 @@ static bool place_of_two(Walk *walk, const XmlElement *node, Place *out) {
 }
 
 /* Reads a node of coordinates and of two numbers: what `multiply`, `add`, `subtract` and `dotproduct` make of them. */
-static bool place_with(Walk *walk, const XmlElement *node, Place *out) {
+static bool place_with(GraphWalk *walk, const XmlElement *node, UvRows *out) {
     float v[2] = {0.0f, 0.0f};
     const XmlElement *first = xml_child(node, "in1"), *second = xml_child(node, "in2");
     const bool swapped = first && !mtlx_is_connected(first);
@@ -109,12 +109,12 @@ static bool place_with(Walk *walk, const XmlElement *node, Place *out) {
 }
 
 /* Scales coordinates by 1 / scale about the pivot and moves them by -offset. */
-static bool place_2d(Walk *walk, const XmlElement *node, Place *out) {
-    float pivot[2] = {0.0f, 0.0f}, scale[2] = {1.0f, 1.0f}, offset[2] = {0.0f, 0.0f}, turn = 0.0f;
+static bool place_2d(GraphWalk *walk, const XmlElement *node, UvRows *out) {
+    float pivot[2] = {0.0f, 0.0f}, scale[2] = {1.0f, 1.0f}, offset[2] = {0.0f, 0.0f}, angle = 0.0f;
     const XmlElement *st = xml_child(node, "texcoord");
     const bool known = given_numbers(node, "pivot", pivot, 2) && given_numbers(node, "scale", scale, 2) &&
-                       given_numbers(node, "offset", offset, 2) && given_numbers(node, "rotate", &turn, 1);
-    if (!known || turn < 0.0f || turn > 0.0f || xml_child(node, "operationorder")) return strange(walk, node);
+                       given_numbers(node, "offset", offset, 2) && given_numbers(node, "rotate", &angle, 1);
+    if (!known || angle < 0.0f || angle > 0.0f || xml_child(node, "operationorder")) return strange(walk, node);
     if (st && !follow_place(walk, st, out)) return false;
     for (int k = 0; k < 2; k++) {
         if (!(fabsf(scale[k]) > 1e-6f)) return strange(walk, node);
@@ -125,8 +125,8 @@ static bool place_2d(Walk *walk, const XmlElement *node, Place *out) {
     return true;
 }
 
-static bool follow_place(Walk *walk, const XmlElement *input, Place *out) {
-    static const Place identity = {{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}}, 0};
+static bool follow_place(GraphWalk *walk, const XmlElement *input, UvRows *out) {
+    static const UvRows identity = {{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}}, 0};
     const char *output;
     const XmlElement *node = target(input, &output);
     *out = identity;
@@ -153,10 +153,10 @@ static bool follow_place(Walk *walk, const XmlElement *input, Place *out) {
 }
 
 /* Reads image, tiledimage and gltf_image. */
-static bool read_image(Walk *walk, const XmlElement *node, MtlxSource *out) {
+static bool read_image(GraphWalk *walk, const XmlElement *node, MtlxSource *out) {
     static const char *const placed[] = {
         "pivot", "scale", "rotate", "offset", "realworldimagesize", "realworldtilesize"};
-    Place place = {{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}}, 0};
+    UvRows place = {{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}}, 0};
     float tiling[2] = {1.0f, 1.0f}, offset[2] = {0.0f, 0.0f};
     const XmlElement *st = xml_child(node, "texcoord"), *u = xml_child(node, "uaddressmode"),
                      *v = xml_child(node, "vaddressmode"), *filter = xml_child(node, "filtertype");
@@ -195,11 +195,11 @@ static bool read_constant(const XmlElement *input, MtlxSource *out) {
     return out->count > 0;
 }
 
-static bool follow_or_read(Walk *walk, const XmlElement *input, MtlxSource *out) {
+static bool follow_or_read(GraphWalk *walk, const XmlElement *input, MtlxSource *out) {
     return mtlx_is_connected(input) ? follow(walk, input, out) : read_constant(input, out);
 }
 
-static bool read_multiply(Walk *walk, const XmlElement *node, MtlxSource *out) {
+static bool read_multiply(GraphWalk *walk, const XmlElement *node, MtlxSource *out) {
     const XmlElement *a = xml_child(node, "in1"), *b = xml_child(node, "in2");
     MtlxSource other = {.channel = -1};
     if (!a || !b || !follow_or_read(walk, a, out)) return strange(walk, node);
@@ -220,7 +220,7 @@ static bool read_multiply(Walk *walk, const XmlElement *node, MtlxSource *out) {
 }
 
 /* Reads a sum of a tangent and a bitangent. */
-static bool read_add(Walk *walk, const XmlElement *node, MtlxSource *out) {
+static bool read_add(GraphWalk *walk, const XmlElement *node, MtlxSource *out) {
     const XmlElement *a = xml_child(node, "in1"), *b = xml_child(node, "in2");
     MtlxSource other = {.channel = -1};
     if (!a || !b || !follow_or_read(walk, a, out) || !follow_or_read(walk, b, &other)) return strange(walk, node);
@@ -232,7 +232,7 @@ static bool read_add(Walk *walk, const XmlElement *node, MtlxSource *out) {
 
 /* Reads a vector turned about the normal. MaterialX's implementations turn it clockwise, seen from the tip of the axis
  * (mx_rotate_vector3). */
-static bool read_turn(Walk *walk, const XmlElement *node, MtlxSource *out) {
+static bool read_rotation(GraphWalk *walk, const XmlElement *node, MtlxSource *out) {
     const XmlElement *in = xml_child(node, "in");
     float degrees = 0.0f;
     if (!in || !follow_or_read(walk, in, out) || !out->tangent || !given_numbers(node, "amount", &degrees, 1))
@@ -244,7 +244,7 @@ static bool read_turn(Walk *walk, const XmlElement *node, MtlxSource *out) {
 }
 
 /* Takes one channel of a texture or of a constant. */
-static bool take_channel(Walk *walk, const XmlElement *node, int channel, MtlxSource *out) {
+static bool take_channel(GraphWalk *walk, const XmlElement *node, int channel, MtlxSource *out) {
     if (channel < 0 || channel > 3 || out->channel >= 0 || out->square || out->tangent) return strange(walk, node);
     if (channel == 3 && !out->file) return strange(walk, node);
     const float factor = out->factor[channel < 3 ? channel : 0];
@@ -254,7 +254,7 @@ static bool take_channel(Walk *walk, const XmlElement *node, int channel, MtlxSo
     return true;
 }
 
-static bool read_channel(Walk *walk, const XmlElement *node, const char *output, MtlxSource *out) {
+static bool read_channel(GraphWalk *walk, const XmlElement *node, const char *output, MtlxSource *out) {
     static const char *const names[] = {"outr", "outg", "outb", "outa"}, *const axes[] = {"outx", "outy", "outz",
                                                                                           "outw"};
     const XmlElement *in = xml_child(node, "in");
@@ -270,7 +270,7 @@ static bool read_channel(Walk *walk, const XmlElement *node, const char *output,
     return take_channel(walk, node, channel, out);
 }
 
-static bool read_normal_map(Walk *walk, const XmlElement *node, MtlxSource *out) {
+static bool read_normal_map(GraphWalk *walk, const XmlElement *node, MtlxSource *out) {
     const XmlElement *in = xml_child(node, "in");
     float scale = 1.0f;
     if (!in || !follow_or_read(walk, in, out) || !out->file || !given_numbers(node, "scale", &scale, 1))
@@ -279,7 +279,7 @@ static bool read_normal_map(Walk *walk, const XmlElement *node, MtlxSource *out)
     return true;
 }
 
-static bool read_same(Walk *walk, const XmlElement *node, MtlxSource *out) {
+static bool read_same(GraphWalk *walk, const XmlElement *node, MtlxSource *out) {
     const XmlElement *in = xml_child(node, strcmp(node->name, "constant") == 0 ? "value" : "in");
     return in && follow_or_read(walk, in, out) ? true : strange(walk, node);
 }
@@ -291,13 +291,13 @@ static bool read_axis(MtlxSource *out, bool across) {
     return true;
 }
 
-static bool read_node(Walk *walk, const XmlElement *node, const char *output, MtlxSource *out) {
+static bool read_node(GraphWalk *walk, const XmlElement *node, const char *output, MtlxSource *out) {
     const char *kind = node->name;
     if (strcmp(kind, "image") == 0 || strcmp(kind, "tiledimage") == 0 || strcmp(kind, "gltf_image") == 0)
         return read_image(walk, node, out);
     if (strcmp(kind, "multiply") == 0) return read_multiply(walk, node, out);
     if (strcmp(kind, "add") == 0) return read_add(walk, node, out);
-    if (strcmp(kind, "rotate3d") == 0) return read_turn(walk, node, out);
+    if (strcmp(kind, "rotate3d") == 0) return read_rotation(walk, node, out);
     if (strcmp(kind, "normalmap") == 0) return read_normal_map(walk, node, out);
     if (strcmp(kind, "tangent") == 0 || strcmp(kind, "bitangent") == 0) return read_axis(out, kind[0] == 'b');
     if (strcmp(kind, "convert") == 0 || strcmp(kind, "dot") == 0 || strcmp(kind, "constant") == 0)
@@ -307,7 +307,7 @@ static bool read_node(Walk *walk, const XmlElement *node, const char *output, Mt
     return strange(walk, node);
 }
 
-static bool follow(Walk *walk, const XmlElement *input, MtlxSource *out) {
+static bool follow(GraphWalk *walk, const XmlElement *input, MtlxSource *out) {
     const char *output;
     const XmlElement *node = target(input, &output);
     if (!node || ++walk->depth > MTLX_CHAIN || ++walk->steps > STEPS) return strange(walk, node);
@@ -318,7 +318,7 @@ static bool follow(Walk *walk, const XmlElement *input, MtlxSource *out) {
 }
 
 bool mtlx_follow(const XmlElement *input, MtlxSource *out, const XmlElement **strange_node) {
-    Walk walk = {.depth = 0};
+    GraphWalk walk = {.depth = 0};
     *out = (MtlxSource){.channel = -1, .scale = 1.0f};
     const bool good = follow(&walk, input, out);
     *strange_node = walk.strange;

@@ -1,4 +1,4 @@
-/* mtlx_graph.h - what a graph of MaterialX makes of an input: a texture, its channel, factor and placement */
+/* mtlx_graph.h - the texture, channel, factor and placement that a graph of MaterialX makes of an input */
 #pragma once
 
 #include <stdbool.h>

@@ -176,7 +176,7 @@ static void from_specular(Input *inputs) {
     if (f0 > 0.0f) scale(&inputs[INPUT_specular_color], 1.0f / f0);
 }
 
-/* Workflow cloth has no highlight. */
+/* Turns workflow cloth, which has no highlight, into a base without a reflection. */
 static void from_cloth(Input *inputs) {
     static const InputId black[] = {INPUT_specular, INPUT_metallic};
     for (size_t k = 0; k < sizeof black / sizeof *black; k++) {

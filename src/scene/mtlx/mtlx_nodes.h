@@ -18,12 +18,12 @@ typedef enum MtlxType {
     MTLX_BOOLEAN
 } MtlxType;
 
-/* What number of the material an input of a node is. */
+/* The number of the material that an input of a node is. */
 typedef enum MtlxRule {
-    MTLX_SAME,       /* that of the weft input */
-    MTLX_SQUARE,     /* its square: an alpha for a roughness */
+    MTLX_SAME,       /* the number of the weft input */
+    MTLX_SQUARE,     /* the square of the number: an alpha for a roughness */
     MTLX_WEIGHT,     /* a factor on the weft input, which another row has too; written as 1 */
-    MTLX_MAP,        /* its texture without the number, which is a strength here */
+    MTLX_MAP,        /* the texture of the weft input without the number, which is a strength */
     MTLX_ALPHA_MODE, /* 0 opaque, 1 mask, 2 blend */
     MTLX_ALPHA_CUTOFF,
     MTLX_TWO_SIDED
@@ -37,7 +37,7 @@ typedef struct MtlxRow {
     float initial; /* the default of the node, of all channels */
 } MtlxRow;
 
-/* How a node has two numbers for two widths of a highlight. */
+/* The formula by which a node makes two widths of a highlight of a roughness and an anisotropy. */
 typedef enum MtlxStretch { MTLX_STRETCH_NONE, MTLX_STRETCH_OPENPBR, MTLX_STRETCH_ASPECT } MtlxStretch;
 
 typedef struct MtlxNodeInfo {

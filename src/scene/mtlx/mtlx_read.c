@@ -14,7 +14,7 @@
 #include "scene/mtlx/mtlx_nodes.h"
 
 /* A document being read. The first failure stays. */
-typedef struct Reader {
+typedef struct MtlxReader {
     const char *name;
     const WeftLog *log;
     WeftError *error;
@@ -24,9 +24,9 @@ typedef struct Reader {
     Material material;             /* numbers of the rows */
     json_t *textures[INPUT_COUNT]; /* owned; NULL: none */
     bool has[INPUT_COUNT];         /* a row has the input */
-} Reader;
+} MtlxReader;
 
-__attribute__((format(printf, 3, 4))) static void refuse(Reader *r, const XmlElement *at, const char *format, ...) {
+__attribute__((format(printf, 3, 4))) static void refuse(MtlxReader *r, const XmlElement *at, const char *format, ...) {
     char text[256];
     if (r->result != WEFT_OK) return;
     va_list arguments;
@@ -36,7 +36,7 @@ __attribute__((format(printf, 3, 4))) static void refuse(Reader *r, const XmlEle
     r->result = fail(r->error, WEFT_MESSAGE_MATERIAL_FILE, r->name, "line %d: %s", at->line, text);
 }
 
-__attribute__((format(printf, 3, 4))) static void ignore(Reader *r, const XmlElement *at, const char *format, ...) {
+__attribute__((format(printf, 3, 4))) static void ignore(MtlxReader *r, const XmlElement *at, const char *format, ...) {
     char text[256];
     va_list arguments;
     va_start(arguments, format);
@@ -45,12 +45,12 @@ __attribute__((format(printf, 3, 4))) static void ignore(Reader *r, const XmlEle
     warn(r->log, WEFT_MESSAGE_GLTF_WARN_IGNORED, r->name, "line %d: %s", at->line, text);
 }
 
-static void put(Reader *r, json_t *object, const char *key, json_t *value) {
+static void put(MtlxReader *r, json_t *object, const char *key, json_t *value) {
     if (json_object_set_new(object, key, value) != 0 && r->result == WEFT_OK)
         r->result = fail(r->error, WEFT_MESSAGE_MEMORY, r->name, NULL);
 }
 
-static json_t *numbers(Reader *r, const float *values, int count) {
+static json_t *numbers(MtlxReader *r, const float *values, int count) {
     json_t *array = json_array();
     for (int k = 0; k < count; k++)
         if (json_array_append_new(array, json_real((double)values[k])) != 0 && r->result == WEFT_OK)
@@ -61,7 +61,7 @@ static json_t *numbers(Reader *r, const float *values, int count) {
 static const char *word(const char *text) { return text ? text : ""; }
 
 /* Writes how a picture repeats. The colour around a picture (constant) is not one of weft's. */
-static void put_wrap(Reader *r, json_t *object, const MtlxSource *source, const XmlElement *at) {
+static void put_wrap(MtlxReader *r, json_t *object, const MtlxSource *source, const XmlElement *at) {
     static const char *const from[] = {"periodic", "mirror", "clamp", "constant"}, *const to[] = {"repeat", "mirror",
                                                                                                   "clamp", "clamp"};
     const char *words[2] = {to[0], to[0]};
@@ -79,7 +79,7 @@ static void put_wrap(Reader *r, json_t *object, const MtlxSource *source, const 
 }
 
 /* Writes the name of a picture's file, with the prefixes of the elements around it. */
-static void put_file(Reader *r, json_t *object, const XmlElement *input) {
+static void put_file(MtlxReader *r, json_t *object, const XmlElement *input) {
     char path[2048];
     const char *prefix = xml_inherited(input, "fileprefix"), *file = xml_attribute(input, "value");
     const int size = snprintf(path, sizeof path, "%s%s", word(prefix), file);
@@ -91,7 +91,7 @@ static void put_file(Reader *r, json_t *object, const XmlElement *input) {
 }
 
 /* Warns where the file says another encoding of a picture than weft reads. */
-static void check_encoding(Reader *r, const MtlxRow *row, const XmlElement *input) {
+static void check_encoding(MtlxReader *r, const MtlxRow *row, const XmlElement *input) {
     const char *space = xml_inherited(input, "colorspace"), *file = xml_attribute(input, "value");
     const bool floats = path_ends(file, ".exr") || path_ends(file, ".hdr") || path_ends(file, ".npy");
     const bool encoded = space && strcmp(space, "srgb_texture") == 0;
@@ -103,7 +103,7 @@ static void check_encoding(Reader *r, const MtlxRow *row, const XmlElement *inpu
 }
 
 /* Keeps the texture that a graph makes of a row. */
-static void take_texture(Reader *r, const MtlxRow *row, const MtlxSource *source) {
+static void take_texture(MtlxReader *r, const MtlxRow *row, const MtlxSource *source) {
     json_t *object = json_object();
     const bool color = row->type == MTLX_COLOR, normal = row->type == MTLX_NORMAL;
     static const char *const channels[] = {"r", "g", "b", "a"};
@@ -124,7 +124,7 @@ static void take_texture(Reader *r, const MtlxRow *row, const MtlxSource *source
     r->textures[row->input] = object;
 }
 
-static void set_value(Reader *r, const MtlxRow *row, const float v[3]) {
+static void set_value(MtlxReader *r, const MtlxRow *row, const float v[3]) {
     Material *m = &r->material;
     float *to = row->input < 0 ? NULL : m->inputs[row->input].value;
     switch (row->rule) {
@@ -141,7 +141,7 @@ static void set_value(Reader *r, const MtlxRow *row, const float v[3]) {
 }
 
 /* Takes what a graph makes of a row's input. */
-static void read_graph(Reader *r, const MtlxRow *row, const XmlElement *input) {
+static void read_graph(MtlxReader *r, const MtlxRow *row, const XmlElement *input) {
     MtlxSource source;
     const XmlElement *strange;
     const bool known = mtlx_follow(input, &source, &strange), tangent = row->type == MTLX_TANGENT;
@@ -178,7 +178,7 @@ static bool read_text(const MtlxRow *row, const char *text, float v[3]) {
     return row->type != MTLX_INTEGER || is_equal(v[0], 0.0f) || is_equal(v[0], 1.0f) || is_equal(v[0], 2.0f);
 }
 
-static void read_row(Reader *r, const MtlxRow *row) {
+static void read_row(MtlxReader *r, const MtlxRow *row) {
     const XmlElement *input = xml_child(r->shader, row->name);
     const char *type = mtlx_type_name(row->type), *is = input ? xml_attribute(input, "type") : NULL;
     float v[3] = {row->initial, row->initial, row->initial};
@@ -200,7 +200,7 @@ static void read_row(Reader *r, const MtlxRow *row) {
 }
 
 /* Warns of inputs that switch on what is not shown, and of those that the node does not have. */
-static void read_others(Reader *r) {
+static void read_others(MtlxReader *r) {
     static const char *const parts[] = {"transmission_", "subsurface_", "thin_film_", "iridescence_", "attenuation_"};
     for (const XmlElement *input = r->shader->first; input; input = input->next) {
         const char *name = xml_attribute(input, "name");
@@ -224,7 +224,7 @@ static bool is_black(const Input *input) {
 }
 
 /* Turns what is off by its weight into what is off by its colour, as a material of weft is without it. */
-static void settle_off(Reader *r, InputId weight, InputId color) {
+static void settle_off(MtlxReader *r, InputId weight, InputId color) {
     Input *inputs = r->material.inputs;
     if (!r->has[weight] || r->textures[weight] || r->textures[color]) return;
     if (!is_black(&inputs[weight]) && !is_black(&inputs[color])) return;
@@ -232,7 +232,7 @@ static void settle_off(Reader *r, InputId weight, InputId color) {
     inputs[weight].value[0] = 1.0f;
 }
 
-static json_t *value_json(Reader *r, InputId id) {
+static json_t *value_json(MtlxReader *r, InputId id) {
     const float *v = r->material.inputs[id].value;
     const WeftInputKind kind = input_infos[id].kind;
     if (kind == WEFT_INPUT_COLOR) return numbers(r, v, 3);
@@ -241,7 +241,7 @@ static json_t *value_json(Reader *r, InputId id) {
 }
 
 /* Gives a texture of a colour the factor that a weight beside it has, which is in the number. */
-static void weigh_textures(Reader *r) {
+static void weigh_textures(MtlxReader *r) {
     for (const MtlxRow *row = r->node->rows; row->name; row++) {
         json_t *object = row->rule == MTLX_WEIGHT ? r->textures[row->input] : NULL;
         const XmlElement *input = object ? xml_child(r->shader, row->name) : NULL;
@@ -254,7 +254,7 @@ static void weigh_textures(Reader *r) {
 }
 
 /* Returns the material file of what was read. */
-static json_t *material_json(Reader *r) {
+static json_t *material_json(MtlxReader *r) {
     static const char *const modes[] = {"opaque", "mask", "blend"}; /* as WeftAlphaMode */
     const Material *m = &r->material;
     json_t *root = json_object();
@@ -284,7 +284,7 @@ static int node_of(const XmlElement *element) {
 }
 
 /* Finds the surface: that of the first material, or else the first that is known. */
-static int find_shader(Reader *r, const XmlElement *root) {
+static int find_shader(MtlxReader *r, const XmlElement *root) {
     const XmlElement *material = NULL;
     int materials = 0;
     for (const XmlElement *element = root->first; element; element = element->next) {
@@ -305,7 +305,7 @@ static int find_shader(Reader *r, const XmlElement *root) {
     return node_of(r->shader);
 }
 
-static json_t *read_root(Reader *r, const XmlElement *root) {
+static json_t *read_root(MtlxReader *r, const XmlElement *root) {
     const char *version = xml_attribute(root, "version");
     if (strcmp(root->name, "materialx") != 0)
         refuse(r, root, "it is <%.40s> and no <materialx>", root->name);
@@ -328,7 +328,7 @@ WeftResult mtlx_read(const void *data, size_t size, const char *name, json_t **o
                      WeftError *error) {
     Arena arena = {0};
     const XmlElement *root;
-    Reader reader = {.name = name, .log = log, .error = error, .material = material_default()};
+    MtlxReader reader = {.name = name, .log = log, .error = error, .material = material_default()};
     json_t *json = NULL;
     reader.result = xml_read(data, size, name, &arena, &root, error);
     if (reader.result == WEFT_OK) json = read_root(&reader, root);

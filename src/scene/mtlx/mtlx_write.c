@@ -109,11 +109,11 @@ static bool put_coordinates(Document *d, const Input *input) {
     mtlx_flip(input->transform, m);
     put_row(d, "u", m);
     put_row(d, "v", m + 3);
-    begin(d, "combine2", "turned", "vector2");
+    begin(d, "combine2", "rotated", "vector2");
     input_node(d, "in1", "float", "u");
     input_node(d, "in2", "float", "v");
     end(d, "combine2");
-    d->last = "turned";
+    d->last = "rotated";
     put_with(d, "add", "placed", "vector2", (const float[]){m[2], m[5]}, 2);
     return true;
 }
@@ -190,11 +190,11 @@ static void put_tangent(Document *d, const Input *input) {
         d->last = axes[k];
         put_with(d, "multiply", parts[k], "vector3", &v[k], 1);
     }
-    begin(d, "add", "turned", "vector3");
+    begin(d, "add", "rotated", "vector3");
     input_node(d, "in1", "vector3", "along");
     input_node(d, "in2", "vector3", "across");
     end(d, "add");
-    d->last = "turned";
+    d->last = "rotated";
 }
 
 static const Input *input_of(const Document *d, const MtlxRow *row) {
