@@ -1,8 +1,9 @@
-/* save.h - saving a material as a small JSON file or as MaterialX, and a scene as glTF */
+/* save.h - saving a material as a small JSON file, as MaterialX or as U3M, and a scene as glTF */
 #ifndef WEFT_SAVE_H
 #define WEFT_SAVE_H
 
 #include "weft/scene.h"
+#include "weft/weave.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -30,6 +31,23 @@ WEFT_API const char *weft_mtlx_node_name(int node);
  * nap, lobes. Fails as weft_scene_save_material. */
 WEFT_API WeftResult weft_scene_save_mtlx(const WeftScene *scene, int index, const char *path, WeftMtlxNode node,
                                          const WeftLog *log, WeftError *error);
+
+/* A draft and its yarns, by which a U3M tells the construction and composition of a cloth. */
+typedef struct WeftTextile {
+    const WeftDraft *draft;
+    const char *yarns[2]; /* of warp and weft, by the names of weft_yarn_name */
+    double metres;        /* that a unit of texture coordinates spans; 0: as the mesh has it */
+} WeftTextile;
+
+/* Writes material index in the textile industry's format U3M (Vizoo and Browzwear, schema 1.1; docs/u3m.md): a .u3m with
+ * its pictures beside it in the folder textures, or a .u3ma with all of them, by the suffix of path. Of a material that
+ * was read from a U3M each member that has not changed is written byte for byte, also what weft does not understand, and
+ * every file of an archive stays. A material that is not of workflow disney is written in the parameters of that. textile
+ * (may be NULL) fills in the physics of a file that has none; where it is NULL the material's own cloth does. log (may be
+ * NULL) receives a warning for each thing that U3M cannot say. Fails with WEFT_MESSAGE_MATERIAL_NAME, _OUTPUT_SUFFIX,
+ * _FILE_OPEN and _MATERIAL_FILE (the pictures of the U3M that was read), _FILE_WRITE or _MEMORY. */
+WEFT_API WeftResult weft_scene_save_u3m(const WeftScene *scene, int index, const char *path, const WeftTextile *textile,
+                                        const WeftLog *log, WeftError *error);
 
 /* Writes the scene as it is as .glb, or as .gltf with a .bin and images beside it: meshes in world space; materials
  * with the extensions KHR_materials_sheen, _clearcoat, _anisotropy, _specular, _ior, _diffuse_transmission,

@@ -28,8 +28,12 @@ static const struct {
 } kinds[MAP_COUNT] = {
     {"base_color.png", 4}, {"normal.png", 3}, {"occlusion_roughness.png", 3}, {"anisotropy.png", 3}, {"height.png", 1}};
 
+static const char back_name[] = "back-"; /* that the files of the other face begin with */
+
 typedef struct MapBake {
-    Weave weave; /* with a cycle */
+    Weave weave;      /* with a cycle */
+    bool back;        /* the other face, whose threads are counted the other way along both systems */
+    const char *name; /* that its files begin with */
     int width, height;
     WeftImage maps[MAP_COUNT];
 } MapBake;
@@ -110,7 +114,8 @@ static void bake_row(void *user, int row, int thread) {
             const int right = k % FINE, down = k / FINE;
             const float x = ((float)column + ((float)right + 0.5f) / FINE) / (float)b->width;
             const float y = 1.0f - ((float)row + ((float)down + 0.5f) / FINE) / (float)b->height;
-            add_point(&b->weave, x * b->weave.cycle_x, y * b->weave.cycle_y, spacing, &t);
+            add_point(&b->weave, (b->back ? 1.0f - x : x) * b->weave.cycle_x,
+                      (b->back ? 1.0f - y : y) * b->weave.cycle_y, spacing, &t);
         }
         put_texel(b, &t, column, row);
     }
@@ -120,42 +125,52 @@ static WeftResult write_maps(MapBake *b, const char *folder, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int k = 0; k < MAP_COUNT && result == WEFT_OK; k++) {
         char path[4096];
-        snprintf(path, sizeof path, "%.4000s/%s", folder, kinds[k].file);
+        snprintf(path, sizeof path, "%.4000s/%s%s", folder, b->name, kinds[k].file);
         result = weft_image_write_as(path, &b->maps[k], &(WeftImageWriting){.data = k != MAP_COLOR}, error);
     }
     return result;
 }
 
-/* Writes a material file (docs/materials.md) with the maps. metres: length of a unit of texture coordinates. */
-static WeftResult write_material(const MapBake *b, const WeftCloth *cloth, const double size[2], double metres,
+/* Writes the inputs of a face, each with its map; place: its size in texture coordinates. */
+static void write_face(FILE *stream, const MapBake *b, bool gaps, const char *place) {
+    const double white = 0.5 * (double)(b->weave.warp.white + b->weave.weft.white);
+    fprintf(stream, "    \"base_color\": {\"texture\": \"%s%s\", %s},\n", b->name, kinds[MAP_COLOR].file, place);
+    if (gaps && !b->back)
+        fprintf(stream,
+                "    \"opacity\": {\"texture\": \"%s%s\", \"channel\": \"a\", %s},\n    \"alpha_mode\": "
+                "\"blend\",\n",
+                b->name, kinds[MAP_COLOR].file, place);
+    fprintf(stream, "    \"normal\": {\"texture\": \"%s%s\", %s},\n", b->name, kinds[MAP_NORMAL].file, place);
+    fprintf(stream, "    \"occlusion\": {\"texture\": \"%s%s\", \"channel\": \"r\", %s},\n", b->name,
+            kinds[MAP_ROUGHNESS].file, place);
+    fprintf(stream, "    \"roughness\": {\"texture\": \"%s%s\", \"channel\": \"g\", %s},\n", b->name,
+            kinds[MAP_ROUGHNESS].file, place);
+    fprintf(stream, "    \"anisotropy\": {\"texture\": \"%s%s\", \"channel\": \"b\", %s},\n", b->name,
+            kinds[MAP_ANISOTROPY].file, place);
+    fprintf(stream, "    \"anisotropy_direction\": {\"texture\": \"%s%s\", %s},\n", b->name, kinds[MAP_ANISOTROPY].file,
+            place);
+    fprintf(stream,
+            "    \"sheen_color\": %.3g,\n    \"sheen_roughness\": 0.6,\n    \"reflectance\": %.3g,\n"
+            "    \"double_sided\": true",
+            0.5 * white, fmin((0.02 + 0.5 * white - 0.017) / 0.05, 1.0));
+}
+
+/* Writes a material file (docs/materials.md) with the maps of both faces. metres: length of a unit of texture
+ * coordinates. */
+static WeftResult write_material(const MapBake faces[2], const WeftCloth *cloth, const double size[2], double metres,
                                  const char *folder, WeftError *error) {
     char path[4096], place[96];
     OutputFile file;
     snprintf(path, sizeof path, "%.4000s/material.json", folder);
     WeftResult result = output_open(&file, path, error);
     if (result != WEFT_OK) return result;
-    const double white = 0.5 * (double)(b->weave.warp.white + b->weave.weft.white);
     const bool gaps = cloth->weave.warp_far.share + cloth->weave.weft_far.share < 0.999f;
     snprintf(place, sizeof place, "\"scale\": [%.9g, %.9g]", metres / size[0], metres / size[1]);
-    fprintf(file.stream, "{\n    \"base_color\": {\"texture\": \"%s\", %s},\n", kinds[MAP_COLOR].file, place);
-    if (gaps)
-        fprintf(file.stream,
-                "    \"opacity\": {\"texture\": \"%s\", \"channel\": \"a\", %s},\n    \"alpha_mode\": "
-                "\"blend\",\n",
-                kinds[MAP_COLOR].file, place);
-    fprintf(file.stream, "    \"normal\": {\"texture\": \"%s\", %s},\n", kinds[MAP_NORMAL].file, place);
-    fprintf(file.stream, "    \"occlusion\": {\"texture\": \"%s\", \"channel\": \"r\", %s},\n",
-            kinds[MAP_ROUGHNESS].file, place);
-    fprintf(file.stream, "    \"roughness\": {\"texture\": \"%s\", \"channel\": \"g\", %s},\n",
-            kinds[MAP_ROUGHNESS].file, place);
-    fprintf(file.stream, "    \"anisotropy\": {\"texture\": \"%s\", \"channel\": \"b\", %s},\n",
-            kinds[MAP_ANISOTROPY].file, place);
-    fprintf(file.stream, "    \"anisotropy_direction\": {\"texture\": \"%s\", %s},\n", kinds[MAP_ANISOTROPY].file,
-            place);
-    fprintf(file.stream,
-            "    \"sheen_color\": %.3g,\n    \"sheen_roughness\": 0.6,\n    \"reflectance\": %.3g,\n"
-            "    \"double_sided\": true\n}\n",
-            0.5 * white, fmin((0.02 + 0.5 * white - 0.017) / 0.05, 1.0));
+    fprintf(file.stream, "{\n");
+    write_face(file.stream, &faces[0], gaps, place);
+    fprintf(file.stream, ",\n    \"back\": {\n");
+    write_face(file.stream, &faces[1], gaps, place);
+    fprintf(file.stream, "\n    }\n}\n");
     return output_commit(&file, error);
 }
 
@@ -172,12 +187,36 @@ static int cycle_of(int count) { return count * ((CYCLE_LEAST + count - 1) / cou
 
 /* Removes a folder that was made for maps of which not all could be written. */
 static void folder_remove(const char *folder) {
-    for (int k = 0; k < MAP_COUNT; k++) {
+    for (int k = 0; k < 2 * MAP_COUNT; k++) {
         char path[4096];
-        snprintf(path, sizeof path, "%.4000s/%s", folder, kinds[k].file);
+        snprintf(path, sizeof path, "%.4000s/%s%s", folder, k < MAP_COUNT ? "" : back_name, kinds[k % MAP_COUNT].file);
         unlink(path);
     }
     rmdir(folder);
+}
+
+/* Bakes and writes the maps of a face. */
+static WeftResult bake_face(MapBake *b, const char *folder, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < MAP_COUNT && result == WEFT_OK; k++)
+        result = weft_image_create(b->width, b->height, kinds[k].channels, WEFT_PIXEL_U8, &b->maps[k], error);
+    if (result == WEFT_OK) {
+        parallel_for(0, b->height, bake_row, b);
+        result = write_maps(b, folder, error);
+    }
+    for (int k = 0; k < MAP_COUNT; k++) weft_image_free(&b->maps[k]);
+    return result;
+}
+
+/* Returns a face of a cloth as it is baked, with so many threads of each system, and slubs that fit a tile. */
+static MapBake face_of(const WeftCloth *cloth, bool back, const int threads[2], const int sides[2]) {
+    MapBake bake = {
+        .weave = cloth->weave, .back = back, .name = back ? back_name : "", .width = sides[0], .height = sides[1]};
+    bake.weave.cycle_x = (float)threads[0];
+    bake.weave.cycle_y = (float)threads[1];
+    bake.weave.warp.slub_nodes = fmaxf(bake.weave.warp.slub_nodes, SLUB_NODES_LEAST);
+    bake.weave.weft.slub_nodes = fmaxf(bake.weave.weft.slub_nodes, SLUB_NODES_LEAST);
+    return bake;
 }
 
 WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, const char *folder, WeftError *error) {
@@ -186,24 +225,19 @@ WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, co
     if (!(metres > 1e-6 && metres < 1e6)) return fail(error, WEFT_MESSAGE_DESC, "maps", "%g metres", metres);
     const bool made = mkdir(folder, 0777) == 0;
     if (!made && errno != EEXIST) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
-    const int across = cycle_of(cloth->weave.warps), along = cycle_of(cloth->weave.picks);
-    const double size[2] = {cloth->size[0] * across / cloth->weave.warps, cloth->size[1] * along / cloth->weave.picks};
+    const int threads[2] = {cycle_of(cloth->weave.warps), cycle_of(cloth->weave.picks)};
+    const double size[2] = {cloth->size[0] * threads[0] / cloth->weave.warps,
+                            cloth->size[1] * threads[1] / cloth->weave.picks};
     int sides[2];
     sides_of(pixels, size, sides);
-    MapBake bake = {.weave = cloth->weave, .width = sides[0], .height = sides[1]};
-    bake.weave.cycle_x = (float)across;
-    bake.weave.cycle_y = (float)along;
-    bake.weave.warp.slub_nodes = fmaxf(bake.weave.warp.slub_nodes, SLUB_NODES_LEAST);
-    bake.weave.weft.slub_nodes = fmaxf(bake.weave.weft.slub_nodes, SLUB_NODES_LEAST);
-    WeftResult result = WEFT_OK;
-    for (int k = 0; k < MAP_COUNT && result == WEFT_OK; k++)
-        result = weft_image_create(bake.width, bake.height, kinds[k].channels, WEFT_PIXEL_U8, &bake.maps[k], error);
-    if (result == WEFT_OK) {
-        parallel_for(0, bake.height, bake_row, &bake);
-        result = write_maps(&bake, folder, error);
+    WeftCloth *other = cloth_other_face(cloth);
+    WeftResult result = other ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
+    if (other) {
+        MapBake faces[2] = {face_of(cloth, false, threads, sides), face_of(other, true, threads, sides)};
+        for (int k = 0; k < 2 && result == WEFT_OK; k++) result = bake_face(&faces[k], folder, error);
+        if (result == WEFT_OK) result = write_material(faces, cloth, size, metres, folder, error);
     }
-    if (result == WEFT_OK) result = write_material(&bake, cloth, size, metres, folder, error);
-    for (int k = 0; k < MAP_COUNT; k++) weft_image_free(&bake.maps[k]);
+    weft_cloth_free(other);
     if (result != WEFT_OK && made) folder_remove(folder);
     return result;
 }

@@ -42,6 +42,7 @@ static const char *const folders[] = {
     "scene/u3m",
     "scene/mtlx",
     "scene/material",
+    "scene/save",
     "scene/light",
     "scene/builtin",
     "scene",

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/patch.h"
 #include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf.h"
-#include "gltf/save/patch.h"
 #include "measure/doctor/doctor.h"
 #include "weft/doctor.h"
 

@@ -18,12 +18,14 @@ static int mtlx_node(const Options *options) {
     return option_given(options, "--mtlx") && !option_choice(options, "--mtlx", names, &node) ? -1 : node;
 }
 
+static bool is_material(const char *path) { return path_ends(path, ".json") || path_is_cloth(path); }
+
 int save_check(const Options *options) {
     int cursor = 0, result = mtlx_node(options) < 0 ? WEFT_USAGE : 0;
     for (const char *path; !result && (path = option_next(options, "--save", &cursor));) {
-        if (!path_ends(path, ".glb") && !path_ends(path, ".gltf") && !path_ends(path, ".json") &&
-            !path_ends(path, ".mtlx"))
-            return report(WEFT_USAGE, "--save: \"%.200s\" is not a .glb, .gltf, .json or .mtlx file", path);
+        if (!path_ends(path, ".glb") && !path_ends(path, ".gltf") && !is_material(path))
+            return report(WEFT_USAGE, "--save: \"%.200s\" is not a .glb, .gltf, .json, .mtlx, .u3m or .u3ma file",
+                          path);
         result = output_probe(path);
     }
     return result;
@@ -57,20 +59,23 @@ static void warn_of_measured(const Options *options, const WeftScene *scene, con
     }
 }
 
+/* Writes the cloth as a material file or, by the suffix, as U3M or MaterialX. */
+static WeftResult material_save(const Options *options, const WeftScene *scene, const char *path, WeftError *error) {
+    const WeftLog log = {.fn = option_given(options, "--quiet") ? NULL : report_warning};
+    const int cloth = save_cloth_of(scene);
+    if (path_is_u3m(path)) return weft_scene_save_u3m(scene, cloth, path, NULL, &log, error);
+    if (path_ends(path, ".mtlx"))
+        return weft_scene_save_mtlx(scene, cloth, path, (WeftMtlxNode)mtlx_node(options), &log, error);
+    return weft_scene_save_material(scene, cloth, path, error);
+}
+
 WeftResult save_all(const Options *options, const WeftScene *scene, WeftError *error) {
     WeftResult result = WEFT_OK;
     int cursor = 0;
     for (const char *path; result == WEFT_OK && (path = option_next(options, "--save", &cursor));) {
-        if (path_ends(path, ".json")) {
-            result = weft_scene_save_material(scene, save_cloth_of(scene), path, error);
-        } else if (path_ends(path, ".mtlx")) {
-            const WeftLog log = {.fn = option_given(options, "--quiet") ? NULL : report_warning};
-            result =
-                weft_scene_save_mtlx(scene, save_cloth_of(scene), path, (WeftMtlxNode)mtlx_node(options), &log, error);
-        } else {
-            result = weft_scene_save(scene, path, error);
-            if (result == WEFT_OK) warn_of_measured(options, scene, path);
-        }
+        const bool material = is_material(path);
+        result = material ? material_save(options, scene, path, error) : weft_scene_save(scene, path, error);
+        if (result == WEFT_OK && !material) warn_of_measured(options, scene, path);
     }
     return result;
 }

@@ -1,4 +1,4 @@
-/* save.h - option --save: a scene as glTF, or one material as JSON or MaterialX */
+/* save.h - option --save: a scene as glTF, or one material as JSON, MaterialX or U3M */
 #pragma once
 
 #include "cli/console/options.h"

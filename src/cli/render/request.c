@@ -19,10 +19,9 @@ const Option request_options[] = {
     OPTION_LIST("-o", "OUT",
                 "write OUT: .exr, .hdr and .npy linear, .png as displayed; of several pictures a sheet with "
                 "their differences, .png"),
-    OPTION_LIST(
-        "--save", "FILE",
-        "write the scene with its materials and lights, .glb or .gltf, or the cloth's material, .json or .mtlx; "
-        "without -o nothing else"),
+    OPTION_LIST("--save", "FILE",
+                "write the scene with its materials and lights, .glb or .gltf, or the cloth's material, .json, .mtlx, "
+                ".u3m or .u3ma; without -o nothing else"),
     OPTION_TEXT("--mtlx", "NODE", "open_pbr_surface",
                 "the surface that --save writes into a .mtlx: open_pbr_surface, gltf_pbr or standard_surface"),
     OPTION_WHOLE("--width", "PIXELS", "960", 1, 65536, "width of the picture"),

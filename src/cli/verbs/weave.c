@@ -10,6 +10,8 @@
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
 
+static const double UV_METRES = 0.5; /* of a unit of texture coordinates of builtin:cloth */
+
 typedef struct Weaving {
     const Options *options;
     const char *what, *output; /* output: NULL: none */
@@ -120,10 +122,20 @@ static int weaving_write(const Weaving *weaving) {
     return weft_draft_write(weaving->draft, weaving->output, &error) == WEFT_OK ? 0 : report_error(&error);
 }
 
-/* Writes the maps, their material, and a draped cloth of it as cloth.glb: one unit of its UVs is 0.5 m. */
+/* Writes the material of a scene with the maps as cloth.u3m, with construction and composition. */
+static WeftResult u3m_write(const Weaving *weaving, const WeftScene *scene, const char *path, WeftError *error) {
+    const char *text = option_text(weaving->options, "--yarn"), *comma = strchr(text, ',');
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", comma ? (int)(comma - text) : (int)strlen(text), text);
+    const WeftTextile textile = {
+        .draft = weaving->draft, .yarns = {name, comma ? comma + 1 : name}, .metres = UV_METRES};
+    return weft_scene_save_u3m(scene, 0, path, &textile, NULL, error);
+}
+
+/* Writes the maps, their material, and a draped cloth of it as cloth.glb. */
 static int maps_write(const Weaving *weaving) {
     const char *folder = option_text(weaving->options, "--bake");
-    char material[4096], glb[4096];
+    char material[4096], glb[4096], u3m[4096];
     WeftScene *scene = NULL;
     WeftError error;
     int pixels = 0;
@@ -132,11 +144,13 @@ static int maps_write(const Weaving *weaving) {
     if (!option_integer(weaving->options, "--size", &pixels)) return WEFT_USAGE;
     snprintf(material, sizeof material, "%s/material.json", folder);
     snprintf(glb, sizeof glb, "%s/cloth.glb", folder);
+    snprintf(u3m, sizeof u3m, "%s/cloth.u3m", folder);
     const WeftLog log = {.fn = report_warning};
-    WeftResult result = weft_cloth_bake(weaving->cloth, pixels, 0.5, folder, &error);
+    WeftResult result = weft_cloth_bake(weaving->cloth, pixels, UV_METRES, folder, &error);
     if (result == WEFT_OK) result = weft_scene_load("builtin:cloth", &scene, &log, &error);
     if (result == WEFT_OK) result = weft_scene_assign_material(scene, NULL, material, &log, &error);
     if (result == WEFT_OK) result = weft_scene_save(scene, glb, &error);
+    if (result == WEFT_OK) result = u3m_write(weaving, scene, u3m, &error);
     weft_scene_free(scene);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
@@ -230,8 +244,10 @@ static const Option weave_options[] = {
                 ".txt with # where the warp is on top"),
     OPTION_NUMBER("--close", "THREADS", NULL, 0.5, 20000,
                   "draw the cloth itself, so many warp threads wide, as -o OUT.png"),
-    OPTION_TEXT("--bake", "DIR", NULL,
-                "write textures that tile, a material file with them, and a draped cloth of it, cloth.glb"),
+    OPTION_TEXT(
+        "--bake", "DIR", NULL,
+        "write textures of both faces that tile, a material file with them, a draped cloth of it, cloth.glb, and "
+        "cloth.u3m"),
     OPTION_WHOLE("--size", "PIXELS", "800", 16, 8192,
                  "width of that picture; textures have as many texels as a square of that side"),
     OPTION_SWITCH("--json", "the figures as JSON on standard output"),

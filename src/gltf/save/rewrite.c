@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/patch.h"
 #include "base/path.h"
 #include "gltf/asset/container.h"
 #include "gltf/save/bundle.h"
-#include "gltf/save/patch.h"
 #include "gltf/save/saving.h"
 #include "image/codec.h"
 

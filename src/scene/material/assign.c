@@ -10,6 +10,7 @@
 #include "scene/material/pictures.h"
 #include "scene/material/relief.h"
 #include "scene/material/set.h"
+#include "scene/u3m/u3m_source.h"
 
 static bool shows(const Material *material, InputId color) {
     const Input *input = &material->inputs[color];
@@ -132,7 +133,8 @@ static WeftResult put_on_selected(WeftScene *scene, const bool *selected, Materi
     if (!adopted) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene_own_materials(scene); k++)
         if (selected[k]) put_on_one(scene, k, file);
-    WeftResult result = cloths_fit(scene, false, error);
+    WeftResult result = u3m_keep(scene, selected, file->u3m, error);
+    if (result == WEFT_OK) result = cloths_fit(scene, false, error);
     return result == WEFT_OK ? materials_complete(scene, error) : result;
 }
 

@@ -401,6 +401,7 @@ void material_file_free(MaterialFile *file) {
     }
     weft_cloth_free(file->cloth);
     scene_measured_free(file->measured);
+    free(file->u3m);
     if (file->back) material_file_free(file->back);
     free(file->back);
     *file = (MaterialFile){0};

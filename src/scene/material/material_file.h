@@ -18,6 +18,7 @@ typedef struct MaterialFile {
     bool has_constants;             /* the file gives these; otherwise the factor of the texture stands for it */
     WeftCloth *cloth;               /* owned; NULL: none */
     Measured *measured;             /* owned; NULL: none */
+    struct U3mText *u3m;            /* the U3M that this is of (scene/u3m/u3m_source.h); owned; NULL: it is of none */
     struct MaterialFile *back;      /* what is seen from behind, with no cloth and no back; owned; NULL: the same */
 } MaterialFile;
 

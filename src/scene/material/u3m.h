@@ -5,6 +5,7 @@
 
 #include "scene/material/material_file.h"
 #include "scene/u3m/u3m_archive.h"
+#include "scene/u3m/u3m_source.h"
 
 /* The files that a U3M names. */
 typedef struct U3mFiles {

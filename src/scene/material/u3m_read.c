@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "base/mark.h"
+#include "base/memory.h"
 #include "base/path.h"
 #include "base/pi.h"
 #include "image/srgb.h"
@@ -29,6 +30,7 @@ typedef struct U3mReader {
     const WeftLog *log;
     WeftError *error;
     WeftResult result;
+    const char *part;    /* the member that is the front, once it is read */
     bool textured;       /* the part that is read names a picture, whether or not there is one */
     char unshown[TEXTS]; /* members that no input shows, and that say something */
     char lacking[TEXTS]; /* members that the schema demands */
@@ -347,6 +349,7 @@ static void read_material(U3mReader *r, const json_t *material) {
         json_t *visual = json_object_get(material, sides[k]);
         r->key = sides[k];
         if (!visual || json_is_null(visual)) continue;
+        r->part = sides[k];
         if (json_is_object(visual))
             read_visual(r, sides[k], visual);
         else
@@ -373,6 +376,21 @@ static void read_root(U3mReader *r, const json_t *root) {
     if (r->result == WEFT_OK) read_material(r, material);
 }
 
+/* Gives the material file the text that it is of. */
+static void keep_text(U3mReader *r, const char *text, size_t size) {
+    const size_t path = strlen(r->name) + 1;
+    U3mText *kept = alloc_array(sizeof *kept + size + 1 + path, 1);
+    r->out->u3m = kept;
+    if (!kept) {
+        r->result = fail(r->error, WEFT_MESSAGE_MEMORY, r->name, NULL);
+        return;
+    }
+    char *bytes = (char *)(kept + 1);
+    memcpy(bytes, text, size);
+    memcpy(bytes + size + 1, r->name, path);
+    *kept = (U3mText){.size = size, .path = bytes + size + 1, .part = r->part, .text = bytes};
+}
+
 WeftResult u3m_read(const void *data, size_t size, const char *name, const U3mFiles *files, MaterialFile *out,
                     const WeftLog *log, WeftError *error) {
     *out = empty();
@@ -391,6 +409,7 @@ WeftResult u3m_read(const void *data, size_t size, const char *name, const U3mFi
     else
         read_root(&reader, root);
     json_decref(root);
+    if (reader.result == WEFT_OK) keep_text(&reader, text + mark, size - mark);
     return reader.result;
 }
 

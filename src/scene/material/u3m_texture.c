@@ -24,8 +24,7 @@ static float mixed(U3mMode mode, float a, float b) {
     return a * b;
 }
 
-/* Returns true if an image has one channel for a number, or three that are equal everywhere. */
-static bool is_grey(const WeftImage *image) {
+bool u3m_texture_grey(const WeftImage *image) {
     if (image->channels < 3) return true;
     const size_t size = pixel_type_size(image->type), step = size * (size_t)image->channels,
                  pixels = (size_t)image->width * (size_t)image->height;
@@ -47,7 +46,7 @@ bool u3m_texture_plain(const U3mField *field, const U3mFormula *formula, const W
     }
     value[0] = formula->factor[0];
     return is_equal(formula->offset, 0.0f) && is_equal(field->scale, 1.0f) && is_equal(field->offset, 0.0f) &&
-           value[0] >= info->hard_low && value[0] <= info->hard_high && is_grey(image);
+           value[0] >= info->hard_low && value[0] <= info->hard_high && u3m_texture_grey(image);
 }
 
 static float number_of(const U3mField *field, const U3mFormula *formula, const float *p, int channels) {

@@ -25,6 +25,9 @@ typedef struct U3mFormula {
     float offset;    /* of a number */
 } U3mFormula;
 
+/* Returns true if an image has one channel for a number, or three that are equal everywhere. */
+bool u3m_texture_grey(const WeftImage *image);
+
 /* Returns true if the value of an input is a factor times the image, and fills the factor in. */
 bool u3m_texture_plain(const U3mField *field, const U3mFormula *formula, const WeftImage *image, float value[3]);
 

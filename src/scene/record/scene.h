@@ -97,6 +97,8 @@ typedef struct Environment {
  * (scene/material/backs.h). */
 typedef enum MaterialBack { BACK_SAME = 0, BACK_WOVEN, BACK_GIVEN } MaterialBack;
 
+struct U3mSource; /* scene/u3m/u3m_source.h */
+
 struct WeftScene {
     Arena arena; /* everything below but the pixels of images */
     SrgbTable srgb;
@@ -115,8 +117,9 @@ struct WeftScene {
     const char **variants;
     int variant; /* number of the active variant, counted from 1; 0: none */
     int image_count, texture_count, material_count, mesh_count, light_count, camera_count, variant_count;
-    int back_count;      /* 0, or one for each own material, which material_count leaves out */
-    MaterialBack *backs; /* of own materials; NULL without places */
+    int back_count;               /* 0, or one for each own material, which material_count leaves out */
+    MaterialBack *backs;          /* of own materials; NULL without places */
+    const struct U3mSource **u3m; /* of own materials: the U3M that one was read from, or NULL; NULL without any */
     int light_capacity, polygon_light_count, polygon_light_capacity; /* capacity: entries that a list has memory for */
     PolygonLight *polygon_lights;
     Hair *hairs;    /* owned, as are the vertices of its meshes; NULL without any */

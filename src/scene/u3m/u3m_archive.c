@@ -129,6 +129,10 @@ WeftResult u3m_archive_read(U3mArchive *archive, const char *path, FileBytes *ou
                    : fail(error, WEFT_MESSAGE_MATERIAL_FILE, archive->name, "in the archive %.200s is damaged", path);
 }
 
+const char *u3m_archive_file(const U3mArchive *archive, int k) {
+    return k < 0 ? NULL : zip_get_name(archive->zip, (zip_uint64_t)k, 0);
+}
+
 void u3m_archive_close(U3mArchive *archive) {
     if (!archive) return;
     if (archive->zip) zip_discard(archive->zip);

@@ -24,6 +24,10 @@ const char *u3m_archive_material(const U3mArchive *archive);
  * Release with free(data). */
 WeftResult u3m_archive_read(U3mArchive *archive, const char *path, FileBytes *out, WeftError *error);
 
+/* Returns the path of file k of the archive, folders included, which end with a slash; NULL past the last. Owned by the
+ * archive. */
+const char *u3m_archive_file(const U3mArchive *archive, int k);
+
 void u3m_archive_close(U3mArchive *archive); /* may be NULL */
 
 /* Returns true for a path that stays in the folder of the file, as the specification demands: relative, with slashes,

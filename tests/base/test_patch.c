@@ -1,5 +1,5 @@
 /* JSON text after edits: what was not edited stays byte for byte, what was edited is what was meant. */
-#include "gltf/save/patch.h"
+#include "base/patch.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

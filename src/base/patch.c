@@ -1,6 +1,6 @@
 /* IETF, RFC 8259 "The JavaScript Object Notation (JSON) Data Interchange Format", 2017. The text has been
  * parsed before, so that only the ends of values are sought here, never errors. */
-#include "gltf/save/patch.h"
+#include "base/patch.h"
 
 #include <stdbool.h>
 #include <stdio.h>
