@@ -74,7 +74,20 @@ typedef enum WeftSeverity {
     F(PART_REPAIRED, "part-repaired", WARNING, 0, "a value that makes no sense is read as another")                    \
     F(REST_POSE, "rest-pose", NOTE, 0, "skins or morph targets are there, of which the rest pose is seen")             \
     F(SCENE_EMPTY, "scene-empty", WARNING, 0, "the scene has no surface")                                              \
-    F(UV_UNEVEN, "uv-uneven", NOTE, 0, "the texture coordinates of a cloth have several scales")
+    F(UV_UNEVEN, "uv-uneven", NOTE, 0, "the texture coordinates of a cloth have several scales")                       \
+    F(U3M_MEMBER, "u3m-member", ERROR, 0, "a U3M lacks a member that its schema demands")                              \
+    F(U3M_SIZE, "u3m-size", WARNING, 0, "a picture of a U3M has no size in millimetres")                               \
+    F(U3M_DPI, "u3m-dpi", WARNING, 0, "the millimetres and the dpi of a picture contradict each other")                \
+    F(U3M_REPEAT, "u3m-repeat", NOTE, 0, "a picture of a U3M is mirrored or turned as it repeats")                     \
+    F(U3M_CONSTANT, "u3m-constant", WARNING, 0, "a constant of a U3M is not the mean of its texture")                  \
+    F(U3M_CHANNELS, "u3m-channels", WARNING, 0, "a number of a U3M has a coloured picture")                            \
+    F(U3M_MODE, "u3m-mode", NOTE, 0, "a colour of a U3M is mixed in another way than by multiplication")               \
+    F(U3M_GLOSS, "u3m-gloss", WARNING, 0, "the picture of a roughness is called gloss")                                \
+    F(U3M_SPECULAR, "u3m-specular", WARNING, 0, "specular_value is beyond 8 % or looks like a reflectance")            \
+    F(U3M_TINT, "u3m-tint", NOTE, 0, "a sheen of a U3M has the tint 0, which programs take for other defaults")        \
+    F(U3M_COAT_NORMAL, "u3m-coat-normal", NOTE, 0, "a clear coat of a U3M is flat over a base with normals")           \
+    F(U3M_GREEN, "u3m-green", WARNING, 0, "green points down in the normals of a U3M")                                 \
+    F(U3M_NORMAL_SPACE, "u3m-normal-space", WARNING, 0, "the normals of a U3M are encoded as colours")
 
 /* The kinds of findings: WEFT_FINDING_EXTENSION_REQUIRED and the rest of WEFT_FINDINGS. */
 typedef enum WeftFindingKind {
@@ -114,7 +127,7 @@ typedef struct WeftFinding {
 /* An asset that was examined. */
 typedef struct WeftDoctor WeftDoctor;
 
-/* Examines the .gltf or .glb at path, which must outlive the doctor. Fails as weft_scene_load does, except that
+/* Examines the .gltf or .glb at path, or the material .u3m or .u3ma, which must outlive the doctor. Fails as weft_scene_load does, except that
  * an unsupported required extension and an image that is missing or cannot be read are findings. log (may be
  * NULL) receives the reader's warnings. On success *out is owned by the caller: release it with
  * weft_doctor_close. */
@@ -149,7 +162,7 @@ WEFT_API WeftDoctorInfo weft_doctor_info(const WeftDoctor *doctor);
 /* Writes the asset as .glb or .gltf with all that is fixable fixed, and nothing else changed: all other JSON text
  * and all other bytes stay as they are. Files that the asset refers to are packed into a .glb, or copied along
  * with a .gltf in another folder. Fails with WEFT_MESSAGE_SCENE_KIND (another suffix), _FILE_OPEN, _FILE_WRITE
- * or _MEMORY. */
+ * or _MEMORY. A U3M is not repaired: WEFT_MESSAGE_SCENE_KIND. */
 WEFT_API WeftResult weft_doctor_fix(const WeftDoctor *doctor, const char *path, WeftError *error);
 
 #ifdef __cplusplus

@@ -1,8 +1,9 @@
-/* `weft convert`: what it writes of each kind of pixels, what it says, and what it refuses. */
+/* `weft convert`: what it writes of each kind of pixels and of U3M, what it says, and what it refuses. */
 #include "run.h"
 
 #include <math.h>
 
+#include "u3m_text.h"
 #include "weft/weft.h"
 
 /* Writes a picture of 8 x 8 texels whose channels are steps of 32 to the right and down, and 64. */
@@ -91,8 +92,39 @@ static void pictures_that_cannot_be_converted_are_refused(void **state) {
     ran_free(&ran);
 }
 
+/* Folder to archive and back is the same file, byte for byte, with its picture; --save does the same. */
+static void u3m_is_packed_and_unpacked_unchanged(void **state) {
+    (void)state;
+    char text[U3M_TEXT];
+    size_t sizes[4];
+    picture_make("p.png");
+    u3m_text(text, "\"basecolor\"",
+             "{\"constant\":{\"r\":0.50,\"g\":1,\"b\":1e-1},\"texture\":{\"mode\":\"multiply\",\"factor\":{\"r\":1,"
+             "\"g\":1,\"b\":1},\"image\":{\"dpi\":{\"x\":20.32,\"y\":20.32},\"width\":10,\"height\":10,\"path\":"
+             "\"p.png\",\"repeat\":{\"mode\":\"normal\",\"rotation\":0}}}}");
+    file_make("cloth.u3m", text, strlen(text));
+    assert_int_equal(system("mkdir back saved"), 0);
+    converts("cloth.u3m", "cloth.u3ma", NULL, "wrote cloth.u3ma");
+    converts("cloth.u3ma", "back/cloth.u3m", "--quiet", "");
+    Ran ran = RUN("render", "cloth.u3ma", "--save", "saved/cloth.u3m");
+    assert_int_equal(ran.code, 0);
+    assert_string_equal(ran.err, "");
+    ran_free(&ran);
+    char *files[4] = {file_bytes("cloth.u3m", &sizes[0]), file_bytes("back/cloth.u3m", &sizes[1]),
+                      file_bytes("saved/cloth.u3m", &sizes[2]), file_bytes("back/p.png", &sizes[3])};
+    assert_true(files[0] && files[1] && files[2] && files[3]);
+    assert_string_equal(files[0], files[1]);
+    assert_string_equal(files[0], files[2]);
+    for (int k = 0; k < 4; k++) free(files[k]);
+    refuses("cloth.u3m", "cloth.png", 2, "cloth.png: a U3M becomes a .u3m or a .u3ma");
+    refuses("p.png", "p.u3m", 2, "p.png: is no U3M");
+    refuses("none.u3m", "none.u3ma", 3, "none.u3m: cannot be opened");
+    refuses("cloth.u3m", "nowhere/cloth.u3ma", 4, "nowhere/cloth.u3ma");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(u3m_is_packed_and_unpacked_unchanged),
         cmocka_unit_test(texture_becomes_ktx2_and_returns),
         cmocka_unit_test(light_is_decoded_and_data_are_not),
         cmocka_unit_test(pictures_that_cannot_be_converted_are_refused),

@@ -214,6 +214,8 @@ static void doctor_commands_without_sense_are_refused(void **state) {
     assert_complaint(NULL, LIST("doctor", "--list", "sick.gltf"), 2, "--list");
     assert_complaint(NULL, LIST("doctor", "nothing.gltf"), 3, "nothing.gltf: cannot be opened");
     assert_complaint(NULL, LIST("doctor", "builtin:cloth"), 3, "--save");
+    assert_complaint(NULL, LIST("doctor", "cloth.u3m", "--fix", "-o", "a.glb"), 2, "examined and not repaired");
+    assert_complaint(NULL, LIST("doctor", "cloth.u3m"), 3, "cloth.u3m: cannot be opened");
     assert_complaint(NULL, LIST("doctor", "sick.gltf", "--fix", "-o", "nowhere/a.glb"), 4, "nowhere/a.glb");
     file_make("broken.glb", "glTF\2\0\0\0", 8);
     assert_complaint(NULL, LIST("doctor", "broken.glb"), 3, "broken.glb: is not a valid GLB container");

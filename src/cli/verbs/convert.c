@@ -1,4 +1,4 @@
-/* convert.c - `weft convert`: a picture in another format */
+/* convert.c - `weft convert`: a picture in another format, or a U3M as folder or archive */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,6 +6,7 @@
 #include "base/path.h"
 #include "cli/console/output.h"
 #include "cli/console/report.h"
+#include "cli/files/save.h"
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
 
@@ -85,8 +86,31 @@ static WeftResult written_say(const Convert *convert, const WeftImage *written, 
     return result;
 }
 
+/* Packs a .u3m into a .u3ma, or unpacks one: what it has stays byte for byte. */
+static int material_convert(const Options *options) {
+    const char *path = options->operands[0], *output = option_text(options, "-o");
+    const WeftLog log = {.fn = option_given(options, "--quiet") ? NULL : report_warning};
+    WeftScene *scene = NULL;
+    WeftError error;
+    if (!path_is_u3m(path))
+        return report(WEFT_USAGE, "%s: is no U3M: weft render %s --save %s writes the material of a scene as one", path,
+                      path, output);
+    if (!output || !path_is_u3m(output))
+        return report(WEFT_USAGE, "%s: a U3M becomes a .u3m or a .u3ma: -o OUT.u3ma", output ? output : path);
+    const int probed = output_probe(output);
+    if (probed != 0) return probed;
+    WeftResult result = weft_scene_load(path, &scene, &log, &error);
+    if (result == WEFT_OK) result = weft_scene_save_u3m(scene, save_cloth_of(scene), output, NULL, &log, &error);
+    weft_scene_free(scene);
+    if (result != WEFT_OK) return report_error(&error);
+    if (!option_given(options, "--quiet")) report(0, "wrote %s", output);
+    return 0;
+}
+
 static int convert_run(const Options *options) {
     Convert convert = {.options = options};
+    const char *output = option_text(options, "-o");
+    if (path_is_u3m(options->operands[0]) || (output && path_is_u3m(output))) return material_convert(options);
     WeftError error = {0};
     int checked = convert_read(&convert);
     if (checked == 0) {
@@ -103,8 +127,10 @@ static int convert_run(const Options *options) {
 }
 
 static const Option convert_options[] = {
-    OPTION_TEXT("-o", "OUT", NULL,
-                "write the picture: .ktx2 as UASTC with all mip levels, .png; .exr, .hdr and .npy as linear light"),
+    OPTION_TEXT(
+        "-o", "OUT", NULL,
+        "write the picture: .ktx2 as UASTC with all mip levels, .png; .exr, .hdr and .npy as linear light; or the U3M: "
+        "a .u3m with its pictures beside it, or a .u3ma"),
     OPTION_SWITCH("--data", "numbers and no colours, such as normals or roughness: no sRGB curve, and marked so"),
     OPTION_NUMBER("--exposure", "STOPS", "0", -64, 64, "multiply the light of floats by 2^STOPS for .png and .ktx2"),
     OPTION_SWITCH("--quiet", "no summary"),
@@ -114,16 +140,19 @@ static const Option convert_options[] = {
 const Verb verb_convert = {
     .name = "convert",
     .operands = "PICTURE -o OUT",
-    .help = "writes a picture in another format, such as a texture as KTX 2",
+    .help = "writes a picture in another format, such as a texture as KTX 2, or a U3M as archive",
     .operands_least = 1,
     .operands_most = 1,
     .options = convert_options,
     .notes = "PICTURE is of any format that weft reads. A .ktx2 is what glTF's KHR_texture_basisu\n"
              "takes: blocks of UASTC in Zstandard, with all mip levels, which viewers turn into\n"
-             "blocks of their GPU. The summary has the ratio of peak to noise of the blocks.\n\n"
+             "blocks of their GPU. The summary has the ratio of peak to noise of the blocks.\n"
+             "A .u3m is packed with its pictures into a .u3ma, or a .u3ma unpacked, and every byte\n"
+             "of it stays.\n\n"
              "Examples\n"
              "  weft convert color.png -o color.ktx2\n"
              "  weft convert normal.png --data -o normal.ktx2\n"
-             "  weft convert studio.hdr --exposure -1 -o studio.png\n",
+             "  weft convert studio.hdr --exposure -1 -o studio.png\n"
+             "  weft convert cloth.u3m -o cloth.u3ma\n",
     .run = convert_run,
 };

@@ -262,9 +262,11 @@ static int visit_make(Visit *visit) {
     if (path_builtin(visit->path))
         return report(WEFT_INPUT, "%s: has no file; weft render %s --save FILE.glb makes one", visit->path,
                       visit->path);
-    if (path_is_cloth(visit->path))
-        return report(WEFT_INPUT, "%s: is a material and no glTF; weft render %s says what of it is not shown",
+    if (path_is_cloth(visit->path) && !path_is_u3m(visit->path))
+        return report(WEFT_INPUT, "%s: is a material of MaterialX and no glTF; weft render %s says what of it is not shown",
                       visit->path, visit->path);
+    if (path_is_u3m(visit->path) && visit->output)
+        return report(WEFT_USAGE, "--fix: %s is a U3M, which is examined and not repaired", visit->path);
     result = examine(visit);
     if (result != 0) return result;
     if (option_given(visit->options, "--json"))
@@ -315,8 +317,9 @@ const Verb verb_doctor = {
     .operands_most = EACH_MOST,
     .options = doctor_options,
     .lists = list_print,
-    .notes = "ASSET is a .gltf or .glb file. It is examined as it is, before anything is clamped or\n"
-             "repaired; what is said of light is measured on the lobes of the engine profiles.\n"
+    .notes = "ASSET is a .gltf or .glb file, or a material .u3m or .u3ma. It is examined as it is,\n"
+             "before anything is clamped or repaired; what is said of light is measured on the lobes\n"
+             "of the engine profiles.\n"
              "An error breaks glTF or shows nothing of what is there, a warning looks wrong in\n"
              "some engine, a note looks otherwise than one may think. docs/doctor.md has each.\n\n"
              "Several assets are examined one after another, and FILE is then a folder, or\n"

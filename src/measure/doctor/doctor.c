@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/path.h"
 #include "base/printable.h"
 #include "gltf/read/gltf.h"
 #include "gltf/save/rewrite.h"
@@ -178,6 +179,23 @@ static void sort(WeftDoctor *doctor) {
     free(found);
 }
 
+/* Examines the U3M at path. */
+static WeftResult open_u3m(const char *path, WeftDoctor **out, const WeftLog *log, WeftError *error) {
+    WeftDoctor *doctor = alloc_array(1, sizeof *doctor);
+    *out = NULL;
+    if (!doctor) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    if (log) doctor->log = *log;
+    doctor->u3m = true;
+    WeftResult result = doctor_u3m(doctor, path, error);
+    if (result == WEFT_OK && !doctor->failed) sort(doctor);
+    if (result == WEFT_OK && doctor->failed) result = fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    if (result == WEFT_OK)
+        *out = doctor;
+    else
+        weft_doctor_close(doctor);
+    return result;
+}
+
 static WeftResult open_any(const char *path, const void *data, size_t size, WeftProgress progress, void *user,
                            WeftDoctor **out, const WeftLog *log, WeftError *error) {
     WeftDoctor *doctor = alloc_array(1, sizeof *doctor);
@@ -219,11 +237,12 @@ static WeftResult open_any(const char *path, const void *data, size_t size, Weft
 }
 
 WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const WeftLog *log, WeftError *error) {
-    return open_any(path, NULL, 0, NULL, NULL, out, log, error);
+    return weft_doctor_open_watched(path, NULL, NULL, out, log, error);
 }
 
 WeftResult weft_doctor_open_watched(const char *path, WeftProgress progress, void *user, WeftDoctor **out,
                                     const WeftLog *log, WeftError *error) {
+    if (path_is_u3m(path)) return open_u3m(path, out, log, error);
     return open_any(path, NULL, 0, progress, user, out, log, error);
 }
 
@@ -279,6 +298,7 @@ static bool can_fix(const WeftDoctor *doctor) {
  * which then has findings of its own. */
 WeftResult weft_doctor_fix(const WeftDoctor *doctor, const char *path, WeftError *error) {
     enum { ROUNDS = 4 };
+    if (doctor->u3m) return fail(error, WEFT_MESSAGE_SCENE_KIND, path, "a U3M is not repaired");
     WeftResult result = fix_once(doctor, path, error);
     bool more = can_fix(doctor);
     for (int round = 1; round < ROUNDS && more && result == WEFT_OK; round++) {

@@ -48,6 +48,7 @@ struct WeftDoctor {
     int energy_count, energy_capacity;
     EnergyTables *energy_tables; /* NULL until the first measurement */
     bool failed;                 /* memory was short */
+    bool u3m;                    /* the file is a U3M (doctor_u3m.c): the asset has nothing but counts */
 };
 
 /* The place of a finding. */
@@ -163,6 +164,9 @@ void check_mesh(WeftDoctor *doctor, int mesh);
 /* Returns E of the whole material, strongest channel, as check_energy measures it. reader: index into
  * doctor_readers. cosine: one that check_energy samples. Negative if not measured. */
 float doctor_albedo(WeftDoctor *doctor, const Cloth *cloth, int reader, float cosine);
+
+/* Examines a U3M. Fails as reading one does. */
+WeftResult doctor_u3m(WeftDoctor *doctor, const char *path, WeftError *error);
 
 /* Applies a repair to the JSON of a rewrite. */
 struct Rewrite;
