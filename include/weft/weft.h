@@ -30,6 +30,7 @@
 #include "weft/fit.h"
 #include "weft/image.h"
 #include "weft/isa.h"
+#include "weft/judge.h"
 #include "weft/lobe.h"
 #include "weft/ltc.h"
 #include "weft/match.h"

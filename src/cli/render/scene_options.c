@@ -26,7 +26,11 @@ static bool colors(const char *text, float color[3]) {
     return good;
 }
 
+/* Returns true if the verb has a background and a floor. */
+static bool has_stage(const Options *options) { return option_row(options, "--background") != NULL; }
+
 static bool read_background(const Options *options, SceneOptions *scene_options) {
+    if (!has_stage(options)) return true;
     static const char *const names[] = {"auto", "environment", "transparent", "a linear r,g,b", "blurred", NULL};
     int choice = WEFT_BACKGROUND_COLOR;
     bool good = colors(option_text(options, "--background"), scene_options->background_color) ||
@@ -141,6 +145,7 @@ static bool read_floor(const Options *options, SceneOptions *scene_options) {
     static const char *const stages[] = {"auto", "none", NULL};
     double reflection = 0.0, roughness = 0.0;
     int stage = 0;
+    if (!has_stage(options)) return true;
     bool good = option_choice(options, "--stage", stages, &stage) && needs_floor(options, "--floor-reflection") &&
                 needs_floor(options, "--floor-roughness") &&
                 option_number(options, "--floor-reflection", &reflection) &&

@@ -6,8 +6,8 @@
 
 enum { SCENE_LIGHTS_MOST = 64 };
 
-/* The rows of the option table. */
-#define SCENE_OPTIONS                                                                                                  \
+/* The rows of the option table that all these verbs have: camera and lights, how a .png shows them, and materials. */
+#define LIGHT_OPTIONS                                                                                                  \
     OPTION_HEADING("View and light"),                                                                                  \
         OPTION_TEXT("--camera", "CAMERA", NULL,                                                                        \
                     "auto, which frames the scene, a camera's name or index, or \"eye;target;fov\" as "                \
@@ -29,14 +29,19 @@ enum { SCENE_LIGHTS_MOST = 64 };
                     "add a light: \"sun;DIRECTION;COLOR\", \"point;POSITION;COLOR\", "                                 \
                     "\"spot;POSITION;DIRECTION;COLOR;INNER,OUTER\" or "                                                \
                     "\"polygon;POSITION;DIRECTION;W,H;COLOR;CORNERS,ROLL\", each x,y,z or r,g,b, cones and roll in "   \
-                    "degrees, 3 to 8 corners; none drops those before it, the file's too"),                            \
-        OPTION_TEXT("--exposure", "STOPS|auto", "0",                                                                   \
-                    "brighten a .png by 2^STOPS, -32 to 32; auto: so that the mean of the picture is middle grey"),    \
+                    "degrees, 3 to 8 corners; none drops those before it, the file's too")
+#define TONE_OPTIONS                                                                                                   \
+    OPTION_TEXT("--exposure", "STOPS|auto", "0",                                                                       \
+                "brighten a .png by 2^STOPS, -32 to 32; auto: so that the mean of the picture is middle grey"),        \
         OPTION_TEXT("--white-balance", "KELVIN[,TINT]|auto", NULL,                                                     \
                     "show light of this temperature, 1700 to 25000, as white in a .png; a tint above 0, -50 to 50, "   \
                     "is of greener light; auto: the light of the picture [6504]"),                                     \
         OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral",                                                               \
-                    "of a .png: none, pbr-neutral, agx, or aces, which is Narkowicz' fit of the ACES curve"),          \
+                    "of a .png: none, pbr-neutral, agx, or aces, which is Narkowicz' fit of the ACES curve")
+
+/* Those of a verb whose pictures have a background and a floor. */
+#define SCENE_OPTIONS                                                                                                  \
+    LIGHT_OPTIONS, TONE_OPTIONS,                                                                                       \
         OPTION_TEXT("--background", "WHAT", "auto",                                                                    \
                     "auto, environment, blurred, transparent or r,g,b, linear, which is shown as it is: "              \
                     "1,1,1 is white"),                                                                                 \
@@ -73,7 +78,8 @@ typedef struct SceneOptions {
     bool no_lights; /* without the file's lights */
 } SceneOptions;
 
-/* Reads and checks all that can be judged without the scene. False after one line on standard error. */
+/* Reads and checks all that can be judged without the scene, of a verb that has the rows of LIGHT_OPTIONS, TONE_OPTIONS and
+ * ASSIGN_OPTIONS at least; others leave out what lies behind and below. False after one line on standard error. */
 bool scene_options_read(const Options *options, const char *scene, SceneOptions *scene_options);
 
 /* Returns the floor to draw under a scene to which the options were applied. */

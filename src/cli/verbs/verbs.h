@@ -25,6 +25,7 @@
     V(fit)                                                                                                             \
     V(diff)                                                                                                            \
     V(convert)                                                                                                         \
+    V(judge)                                                                                                           \
     V(doctor)                                                                                                          \
     V(weave)
 
