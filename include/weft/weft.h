@@ -24,6 +24,7 @@
 #include "weft/arrays.h"
 #include "weft/bake.h"
 #include "weft/chart.h"
+#include "weft/deliver.h"
 #include "weft/diff.h"
 #include "weft/doctor.h"
 #include "weft/export.h"

@@ -88,6 +88,7 @@ static const char *const folders[] = {
     "cli/render",
     "cli/match",
     "cli/judge",
+    "cli/deliver",
     "cli/bake",
     "cli/passport",
     "cli/fit",

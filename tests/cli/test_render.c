@@ -311,9 +311,9 @@ static void failed_render_keeps_the_old_picture(void **state) {
     assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png"), 3, "none.gltf: cannot be opened");
     assert_complaint(
         NULL, LIST("render", "builtin:none", "-o", "a.png"), 2,
-        "builtin:none: is not a built-in scene: available: ball, cloth, lampshade, loom, sewing, spheres, swatch\n");
+        "builtin:none: is not a built-in scene: available: ball, bend, cloth, lampshade, loom, sewing, spheres, swatch\n");
     assert_complaint(NULL, LIST("render", "builtin:sphere", "-o", "a.png"), 2,
-                     "available: ball, cloth, lampshade, loom, sewing, spheres, swatch; did you mean spheres?");
+                     "available: ball, bend, cloth, lampshade, loom, sewing, spheres, swatch; did you mean spheres?");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=0,0,1;0,0,0;180"), 2, "field of view");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=back"), 2,
                      "back: is not a camera of this scene: available: front; else write auto");

@@ -22,6 +22,7 @@
     V(bake)                                                                                                            \
     V(export)                                                                                                          \
     V(match)                                                                                                           \
+    V(deliver)                                                                                                         \
     V(fit)                                                                                                             \
     V(diff)                                                                                                            \
     V(convert)                                                                                                         \

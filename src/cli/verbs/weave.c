@@ -7,6 +7,7 @@
 #include "cli/console/output.h"
 #include "cli/console/report.h"
 #include "cli/console/two_columns.h"
+#include "cli/operands/draft_operand.h"
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
 
@@ -36,53 +37,21 @@ static double sett(const WeftDraftInfo *info, WeftThreads threads) {
     return (double)info->count[threads] / (100.0 * (double)info->size[threads]);
 }
 
-static int sett_apply(Weaving *weaving) {
-    const char *text = option_text(weaving->options, "--sett");
-    double setts[2];
-    WeftError error;
-    if (!text) return 0;
-    if (!numbers_parse(text, 2, setts)) {
-        if (!numbers_parse(text, 1, setts))
-            return report(WEFT_USAGE, "--sett %.40s: one or two numbers of threads per centimetre are expected", text);
-        setts[WEFT_WEFT] = setts[WEFT_WARP];
-    }
-    for (int t = 0; t < 2; t++)
-        if (weft_draft_set_sett(weaving->draft, (WeftThreads)t, (float)(100.0 * setts[t]), &error) != WEFT_OK)
-            return report_error(&error);
-    return 0;
-}
-
 static int draft_make(Weaving *weaving) {
-    const WeftLog log = {.fn = report_warning};
     WeftError error;
-    if (weft_draft_read(weaving->what, &weaving->draft, &log, &error) != WEFT_OK) {
-        if (error.message != WEFT_MESSAGE_FILE_OPEN) return report_error(&error);
-        return report((int)error.result, "%s; words such as twill 2/2 need no file", error.text);
-    }
+    const int read = draft_read(weaving->what, &weaving->draft);
+    if (read != 0) return read;
     if (option_given(weaving->options, "--back")) {
         WeftDraft *back;
         if (weft_draft_back(weaving->draft, &back, &error) != WEFT_OK) return report_error(&error);
         weft_draft_free(weaving->draft);
         weaving->draft = back;
     }
-    const int result = sett_apply(weaving);
+    const int result = draft_sett(option_text(weaving->options, "--sett"), weaving->draft);
     weaving->info = weft_draft_info(weaving->draft);
     if (result == 0 && !weaving->info.shafts)
         return report(WEFT_RESOURCES, "%.300s: %s", weaving->what, weft_message_text(WEFT_MESSAGE_MEMORY));
     return result;
-}
-
-/* Reads the yarns of warp and weft by name. */
-static int yarns_read(const char *text, WeftYarn yarns[2]) {
-    WeftError error;
-    char name[2][64];
-    const char *comma = strchr(text, ',');
-    const int first = comma ? (int)(comma - text) : (int)strlen(text);
-    snprintf(name[0], sizeof name[0], "%.*s", first, text);
-    snprintf(name[1], sizeof name[1], "%s", comma ? comma + 1 : name[0]);
-    for (int t = 0; t < 2; t++)
-        if (weft_yarn_find(name[t], &yarns[t], &error) != WEFT_OK) return report_error(&error);
-    return 0;
 }
 
 /* Weaves the cloth. A draft of many crossings is woven only if the options need the cloth. */

@@ -1,5 +1,6 @@
 #include "scene/builtin/builtin.h"
 
+#include "scene/builtin/bend_scene.h"
 #include "scene/builtin/lampshade.h"
 #include "scene/builtin/loom_scene.h"
 #include "scene/builtin/spheres.h"
@@ -10,6 +11,8 @@ extern const unsigned char embedded_cloth_glb[], embedded_cloth_glb_end[], embed
 
 static const Builtin builtins[] = {
     {"ball", "one ball in velvet on a floor, to look at one material", NULL, NULL, ball_make},
+    {"bend", "a cloth over a bend of 150 degrees and nothing else, as weft deliver hands it over", NULL, NULL,
+     bend_make},
     {"cloth", "velvet draped over a form on a plinth, under a soft box", embedded_cloth_glb, embedded_cloth_glb_end,
      NULL},
     {"lampshade", "a lit lamp before a curtain: light through cloth", NULL, NULL, lampshade_make},

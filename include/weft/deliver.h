@@ -1,0 +1,56 @@
+/* deliver.h - a glTF file for one viewer: matched to what it shades, and without the extensions that it ignores */
+#ifndef WEFT_DELIVER_H
+#define WEFT_DELIVER_H
+
+#include "weft/match.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A program that shows glTF files without a plug-in. */
+typedef struct WeftTarget {
+    const char *name, *help; /* such as "three", and a line on it; live as long as the program */
+    const char *profile;     /* of weft_profile_name, which shades as the program does */
+} WeftTarget;
+
+/* Fills in the target at index, and returns 1; returns 0 past the end. */
+WEFT_API int weft_target_info(int index, WeftTarget *out);
+
+/* One material of a delivered file, measured without its normal map and with the means of its other textures. */
+typedef struct WeftDelivered {
+    char name[64];   /* of the material, truncated */
+    WeftMatch found; /* distance of the original's numbers, and of those delivered, from the original */
+    /* light that the material returns under an even sky of all directions, over what the original returns, less 1:
+     * the mean of the channels */
+    double even_sky;
+} WeftDelivered;
+
+/* The outcome for a target. Texts are owned, UTF-8, and have a line for each item. */
+typedef struct WeftDelivery {
+    WeftDelivered *materials; /* material_count of them */
+    int material_count;       /* of the file */
+    char *extensions;         /* those that the written file uses */
+    char *lost;               /* things of the original that the target does not show, a sentence each */
+} WeftDelivery;
+
+/* Converts the glTF file at `path` for a target, by its index, and writes it to `out`, a .glb or .gltf. `from` is the
+ * profile that the file was made for, -1: as weft draws it, with what extras.weft holds. Extensions of materials that
+ * the target does not read are taken out, and so is extras.weft; then the factors that remain (those of
+ * weft_match_asset) are searched for what comes closest to the original. An index of refraction that has to go
+ * becomes a specular colour. All else stays as it is. progress (may be NULL) can stop the work: WEFT_INTERRUPTED; `out`
+ * may then exist, and is of no use. *delivery (delivery may be NULL) is released with weft_delivery_free. Fails with
+ * WEFT_MESSAGE_DESC (no such target or profile), WEFT_MESSAGE_GLTF_EXTENSION (KHR_materials_pbrSpecularGlossiness, for
+ * a target that does not read it), and as weft_match_asset does. */
+WEFT_API WeftResult weft_deliver(const char *path, const char *out, int from, int target, WeftBrdfMetric metric,
+                                 WeftProgress progress, void *user, WeftDelivery *delivery, const WeftLog *log,
+                                 WeftError *error);
+
+/* Releases what a delivery owns. delivery may be NULL. */
+WEFT_API void weft_delivery_free(WeftDelivery *delivery);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

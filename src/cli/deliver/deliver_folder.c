@@ -1,0 +1,79 @@
+/* deliver_folder.c - the files of a delivery, which are made in a folder of their own and then given their places */
+#define _XOPEN_SOURCE 700 /* nftw, mkdtemp */
+#include <errno.h>
+#include <ftw.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/console/output.h"
+#include "cli/console/report.h"
+#include "cli/deliver/delivery.h"
+
+static int unwritten(const char *path) {
+    return report(WEFT_RESOURCES, "%.400s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_WRITE), strerror(errno));
+}
+
+/* Writes FOLDER/NAME-TARGET.SUFFIX, or FOLDER/NAME.SUFFIX. */
+static void path_in(const char *folder, const char *name, const char *target, const char *suffix,
+                    char path[DELIVER_PATH]) {
+    snprintf(path, DELIVER_PATH, "%.3900s/%.79s%s%.32s%s", folder, name, target ? "-" : "", target ? target : "",
+             suffix);
+}
+
+void folder_path(const Delivery *delivery, const char *target, const char *suffix, char path[DELIVER_PATH]) {
+    path_in(delivery->temporary, delivery->name, target, suffix, path);
+}
+
+/* Calls use with each file, the summary last, until it returns another value than 0. */
+static int each_file(Delivery *delivery, int (*use)(const Delivery *delivery, const char *target, const char *suffix)) {
+    int result = 0;
+    for (int k = 0; k < delivery->count && result == 0; k++) {
+        WeftTarget target;
+        weft_target_info(delivery->files[k].target, &target);
+        result = use(delivery, target.name, ".glb");
+        if (result == 0) result = use(delivery, target.name, ".png");
+    }
+    return result == 0 ? use(delivery, NULL, ".json") : result;
+}
+
+static int place_probe(const Delivery *delivery, const char *target, const char *suffix) {
+    char path[DELIVER_PATH];
+    path_in(delivery->folder, delivery->name, target, suffix, path);
+    return output_probe_other(delivery->options, path);
+}
+
+int folder_begin(Delivery *delivery) {
+    if (strlen(delivery->folder) > 3800) return report(WEFT_USAGE, "-o: the name is too long");
+    delivery->made = mkdir(delivery->folder, 0777) == 0;
+    if (!delivery->made && errno != EEXIST) return unwritten(delivery->folder);
+    const int result = each_file(delivery, place_probe);
+    if (result != 0) return result;
+    snprintf(delivery->temporary, sizeof delivery->temporary, "%.3900s/.weft-XXXXXX", delivery->folder);
+    if (mkdtemp(delivery->temporary)) return 0;
+    delivery->temporary[0] = '\0';
+    return unwritten(delivery->folder);
+}
+
+static int place_take(const Delivery *delivery, const char *target, const char *suffix) {
+    char from[DELIVER_PATH], to[DELIVER_PATH];
+    folder_path(delivery, target, suffix, from);
+    path_in(delivery->folder, delivery->name, target, suffix, to);
+    return rename(from, to) == 0 ? 0 : unwritten(to);
+}
+
+int folder_commit(Delivery *delivery) { return each_file(delivery, place_take); }
+
+static int entry_remove(const char *path, const struct stat *status, int kind, struct FTW *at) {
+    (void)status, (void)kind, (void)at;
+    remove(path);
+    return 0;
+}
+
+void folder_end(Delivery *delivery) {
+    enum { OPEN_MOST = 8 };
+    if (delivery->temporary[0]) nftw(delivery->temporary, entry_remove, OPEN_MOST, FTW_DEPTH | FTW_PHYS);
+    if (delivery->made) rmdir(delivery->folder); /* stays where it has files */
+}

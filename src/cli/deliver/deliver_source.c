@@ -1,0 +1,178 @@
+/* deliver_source.c - the source of a delivery, as a scene and as a glTF file */
+#define _XOPEN_SOURCE 700
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/path.h"
+#include "cli/console/interrupt.h"
+#include "cli/console/names.h"
+#include "cli/console/report.h"
+#include "cli/deliver/delivery.h"
+#include "cli/operands/draft_operand.h"
+
+/* The kinds of things that can be delivered. */
+typedef enum SourceKind { SOURCE_ASSET, SOURCE_SCENE, SOURCE_MATERIAL, SOURCE_MEASURED, SOURCE_DRAFT } SourceKind;
+
+static bool is_preset(const char *what) { return kind_find(kind_of("preset"), what) >= 0; }
+
+static SourceKind kind_of_source(const char *what) {
+    if (path_ends(what, ".gltf") || path_ends(what, ".glb")) return SOURCE_ASSET;
+    if (strncmp(what, "builtin:", 8) == 0) return SOURCE_SCENE;
+    if (path_ends(what, ".json") || path_is_u3m(what) || strncmp(what, "preset:", 7) == 0 || is_preset(what))
+        return SOURCE_MATERIAL;
+    return weft_reflection_readable(what) ? SOURCE_MEASURED : SOURCE_DRAFT;
+}
+
+/* Works as scene calls do, and reports a failure. */
+static int told(WeftResult result, const WeftError *error) {
+    return result == WEFT_OK || result == WEFT_INTERRUPTED ? (int)result : report_error(error);
+}
+
+static int material_load(const char *what, WeftScene *scene) {
+    const WeftLog log = {.fn = report_warning};
+    WeftError error;
+    char path[DELIVER_PATH];
+    snprintf(path, sizeof path, "%s%s", is_preset(what) ? "preset:" : "", what);
+    return told(weft_scene_assign_material(scene, NULL, path, &log, &error), &error);
+}
+
+/* Weaves the cloth of the scene from a draft, as `weft weave` does. */
+static int draft_load(const Delivery *delivery, WeftScene *scene) {
+    const Options *options = delivery->options;
+    WeftDraft *draft = NULL;
+    WeftYarn yarns[2];
+    WeftError error;
+    int result = draft_read(delivery->what, &draft);
+    if (result == 0) result = draft_sett(option_text(options, "--sett"), draft);
+    if (result == 0) result = yarns_read(option_text(options, "--yarn"), yarns);
+    if (result == 0) result = told(weft_scene_weave(scene, "0", "draft", "plain", NULL, &error), &error);
+    if (result == 0) result = told(weft_scene_set_weave(scene, 0, draft, yarns, &error), &error);
+    if (result == 0)
+        result = told(weft_scene_weave(scene, "0", "seed", option_text(options, "--seed"), NULL, &error), &error);
+    if (result == 0) result = told(weft_scene_weave(scene, "0", "metres", "1", NULL, &error), &error);
+    weft_draft_free(draft);
+    return result;
+}
+
+static bool is_woven(const WeftScene *scene) {
+    WeftMaterial material;
+    for (int k = 0; k < weft_scene_info(scene).material_count; k++)
+        if (weft_scene_material(scene, k, &material, NULL) == WEFT_OK && material.cloth) return true;
+    return false;
+}
+
+/* Lets the materials of an asset look as in the engine that it was made for. */
+static int profile_set(const Delivery *delivery, WeftScene *scene) {
+    WeftMaterial material;
+    WeftError error;
+    const int choice = weft_material_choice_find("profile");
+    for (int k = 0; k < weft_scene_info(scene).material_count; k++) {
+        WeftResult result = weft_scene_material(scene, k, &material, &error);
+        if (result == WEFT_OK && !material.cloth) {
+            weft_material_choose(&material, choice, delivery->from);
+            result = weft_scene_put_material(scene, k, &material, &error);
+        }
+        if (result != WEFT_OK) return report_error(&error);
+    }
+    return 0;
+}
+
+/* Decides what the numbers of the original mean, and what the pictures show. */
+static int meaning_set(Delivery *delivery, SourceKind kind, WeftScene *scene) {
+    const int khronos = kind_find(kind_of("profile"), "khronos");
+    const bool woven = is_woven(scene);
+    delivery->from = khronos;
+    delivery->reference = "its threads";
+    if (kind == SOURCE_ASSET) {
+        delivery->from = kind_named(kind_of("profile"), option_text(delivery->options, "--from"));
+        if (delivery->from < 0) return WEFT_USAGE;
+        if (!woven) delivery->reference = "the asset in the engine it was made for";
+        return profile_set(delivery, scene);
+    }
+    if (woven) return 0;
+    delivery->from = -1;
+    delivery->reference = "the material as weft draws it";
+    return 0;
+}
+
+int source_load(Delivery *delivery, WeftScene **out) {
+    const WeftLog log = {.fn = report_warning};
+    const SourceKind kind = kind_of_source(delivery->what);
+    const bool file = kind == SOURCE_ASSET || kind == SOURCE_SCENE;
+    WeftError error;
+    *out = NULL;
+    if (kind == SOURCE_MEASURED)
+        return report(WEFT_USAGE,
+                      "%.300s: is a measurement, not a material; fit one to it first: weft fit FILE -o fitted.json",
+                      delivery->what);
+    int result = told(weft_scene_load_watched(file ? delivery->what : "builtin:bend", delivery_heed, delivery, out,
+                                              file ? &log : NULL, &error),
+                      &error);
+    if (result == 0 && kind == SOURCE_MATERIAL) result = material_load(delivery->what, *out);
+    if (result == 0 && kind == SOURCE_DRAFT) result = draft_load(delivery, *out);
+    if (result == 0) result = meaning_set(delivery, kind, *out);
+    return result;
+}
+
+/* Keeps of a woven material what lies over its threads: sheen, fuzz and coat. */
+static WeftResult layers_keep(WeftScene *scene, int index, const WeftMaterial *woven, WeftError *error) {
+    static const char *const layers[][3] = {{"sheen_color", "sheen_roughness", "sheen"},
+                                            {"fuzz", "fuzz_color", "fuzz_roughness"},
+                                            {"clearcoat", "clearcoat_roughness", "coat_ior"}};
+    WeftMaterial baked;
+    WeftResult result = weft_scene_material(scene, index, &baked, error);
+    for (size_t l = 0; l < sizeof layers / sizeof *layers && result == WEFT_OK; l++) {
+        const WeftInput *amount = &woven->inputs[weft_material_input_find(layers[l][0])];
+        if (!(amount->value[0] + amount->value[1] + amount->value[2] > 0.0f)) continue;
+        for (int k = 0; k < 3; k++) {
+            const int input = weft_material_input_find(layers[l][k]);
+            baked.inputs[input] = woven->inputs[input];
+        }
+    }
+    return result == WEFT_OK ? weft_scene_put_material(scene, index, &baked, error) : result;
+}
+
+/* Bakes the cloth of a material to textures, and gives it these. */
+static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftMaterial *material) {
+    const WeftClothInfo info = weft_scene_cloth_info(scene, material->cloth);
+    WeftYarn yarns[2];
+    WeftCloth *cloth = NULL;
+    WeftError error;
+    char folder[DELIVER_PATH], file[DELIVER_PATH + 32], number[16];
+    snprintf(number, sizeof number, "%d", index);
+    snprintf(folder, sizeof folder, "%.3900s/bake-%d", delivery->temporary, index);
+    snprintf(file, sizeof file, "%s/material.json", folder);
+    const WeftDraft *draft = weft_scene_cloth(scene, material->cloth, yarns);
+    WeftResult result = weft_cloth_create(draft, yarns, (unsigned)info.seed, &cloth, &error);
+    if (result == WEFT_OK) result = weft_cloth_bake(cloth, delivery->pixels, (double)info.metres, folder, &error);
+    weft_cloth_free(cloth);
+    if (result == WEFT_OK) result = weft_scene_assign_material(scene, number, file, NULL, &error);
+    if (result == WEFT_OK) result = layers_keep(scene, index, material, &error);
+    if (info.rotation > 0.0f || info.rotation < 0.0f)
+        snprintf(delivery->lost, sizeof delivery->lost, "the weave is not turned by its %g degrees",
+                 (double)info.rotation);
+    return told(result, &error);
+}
+
+int source_write(Delivery *delivery) {
+    WeftScene *scene = NULL;
+    WeftMaterial material;
+    WeftError error;
+    int result = source_load(delivery, &scene);
+    if (result == 0 && kind_of_source(delivery->what) == SOURCE_ASSET && !is_woven(scene)) {
+        snprintf(delivery->source, sizeof delivery->source, "%s", delivery->what);
+        weft_scene_free(scene);
+        return 0;
+    }
+    const int count = result == 0 ? weft_scene_info(scene).material_count : 0;
+    for (int k = 0; k < count && result == 0; k++) {
+        result = told(weft_scene_material(scene, k, &material, &error), &error);
+        if (result == 0 && material.cloth) result = cloth_bake(delivery, scene, k, &material);
+        if (result == 0 && delivery_heed(delivery, (double)(k + 1) / count)) result = WEFT_INTERRUPTED;
+    }
+    snprintf(delivery->source, sizeof delivery->source, "%.4000s/source.glb", delivery->temporary);
+    if (result == 0) result = told(weft_scene_save(scene, delivery->source, &error), &error);
+    weft_scene_free(scene);
+    return result;
+}

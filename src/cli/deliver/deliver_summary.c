@@ -1,0 +1,108 @@
+/* deliver_summary.c - the summary of a delivery, as JSON for a build server and as text */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/console/json_writer.h"
+#include "cli/console/report.h"
+#include "cli/deliver/delivery.h"
+
+static const char *const view_keys[VIEW_COUNT] = {"near", "far"};
+
+/* Writes the lines of a text as an array. */
+static void lines_write(Json *json, const char *key, const char *text, const char *more) {
+    char line[512];
+    json_open(json, key, '[');
+    if (more && *more) json_text(json, NULL, more);
+    for (const char *at = text, *end; at && (end = strchr(at, '\n')); at = end + 1) {
+        snprintf(line, sizeof line, "%.*s", (int)(end - at), at);
+        json_text(json, NULL, line);
+    }
+    json_close(json, ']');
+}
+
+static void view_write(Json *json, const char *key, const ViewErrors *errors) {
+    json_open(json, key, '{');
+    json_number(json, "mean_color", errors->color);
+    json_number(json, "profile_l1", errors->profile);
+    json_number(json, "flip", errors->flip);
+    json_number(json, "contrast", errors->contrast);
+    json_close(json, '}');
+}
+
+static void materials_write(Json *json, const WeftDelivery *delivery) {
+    json_open(json, "materials", '[');
+    for (int k = 0; k < delivery->material_count; k++) {
+        const WeftDelivered *material = &delivery->materials[k];
+        json_open(json, NULL, '{');
+        json_text(json, "material", material->name);
+        json_number(json, "copied", material->found.copied);
+        json_number(json, "matched", material->found.matched);
+        json_number(json, "even_sky", material->even_sky);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+}
+
+static void target_file_write(Json *json, const Delivery *delivery, const TargetFile *file) {
+    WeftTarget target = {.name = ""};
+    char name[DELIVER_PATH];
+    weft_target_info(file->target, &target);
+    json_open(json, NULL, '{');
+    json_text(json, "target", target.name);
+    json_text(json, "viewer", target.help);
+    json_text(json, "profile", target.profile);
+    json_open(json, "files", '{');
+    snprintf(name, sizeof name, "%s-%s.glb", delivery->name, target.name);
+    json_text(json, "gltf", name);
+    snprintf(name, sizeof name, "%s-%s.png", delivery->name, target.name);
+    json_text(json, "sheet", name);
+    json_close(json, '}');
+    json_whole(json, "bytes", file->bytes);
+    json_open(json, "errors", '{');
+    for (int v = 0; v < VIEW_COUNT; v++) view_write(json, view_keys[v], &file->errors.views[v]);
+    json_number(json, "even_sky", file->errors.sky);
+    json_close(json, '}');
+    lines_write(json, "extensions", file->delivery.extensions, NULL);
+    lines_write(json, "lost", file->delivery.lost, delivery->lost);
+    materials_write(json, &file->delivery);
+    json_close(json, '}');
+}
+
+void summary_write(const Delivery *delivery, FILE *stream) {
+    Json json = {.stream = stream};
+    json_open(&json, NULL, '{');
+    json_text(&json, "source", delivery->what);
+    json_text(&json, "name", delivery->name);
+    json_text(&json, "reference", delivery->reference);
+    json_text(&json, "metric", weft_brdf_metric_name(delivery->metric));
+    json_open(&json, "pictures", '{');
+    json_whole(&json, "width", delivery->width);
+    json_whole(&json, "height", delivery->height);
+    json_whole(&json, "samples_per_pixel", delivery->spp);
+    for (int v = 0; v < VIEW_COUNT; v++) json_text(&json, view_keys[v], delivery->cameras[v]);
+    json_close(&json, '}');
+    json_open(&json, "targets", '[');
+    for (int k = 0; k < delivery->count; k++) target_file_write(&json, delivery, &delivery->files[k]);
+    json_close(&json, ']');
+    json_close(&json, '}');
+}
+
+void summary_print(const Delivery *delivery) {
+    printf("%-10s %22s %22s %9s  lost\n", "", "near: colour, columns", "far: colour, columns", "even sky");
+    for (int k = 0; k < delivery->count; k++) {
+        const TargetFile *file = &delivery->files[k];
+        const ViewErrors *views = file->errors.views;
+        WeftTarget target = {.name = ""};
+        weft_target_info(file->target, &target);
+        printf("%-10s", target.name);
+        for (int v = 0; v < VIEW_COUNT; v++)
+            printf(" %11.1f %% %6.1f %%", 100.0 * views[v].color, 100.0 * views[v].profile);
+        printf(" %+7.1f %%", 100.0 * file->errors.sky);
+        const char *line = file->delivery.lost;
+        int column = 2;
+        for (const char *end; line && (end = strchr(line, '\n')); line = end + 1, column = 69)
+            printf("%*s%.*s\n", column, "", (int)(end - line), line);
+        if (column == 2) printf("  nothing\n");
+    }
+    if (delivery->lost[0]) printf("and in all: %s\n", delivery->lost);
+}

@@ -1,0 +1,250 @@
+/* deliver.c - `weft deliver`: files for viewers that need no plug-in, each with a sheet that shows how near it is */
+#include "cli/deliver/delivery.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/path.h"
+#include "cli/console/interrupt.h"
+#include "cli/console/names.h"
+#include "cli/console/output.h"
+#include "cli/console/report.h"
+#include "cli/console/two_columns.h"
+#include "cli/operands/lobes.h"
+#include "cli/operands/root.h"
+#include "cli/verbs/verbs.h"
+
+/* Returns the index of the target of that name, or -1 after one line. */
+static int target_named(const char *name) {
+    Nearest nearest = {.typed = name};
+    WeftTarget target;
+    char list[160] = "", hint[96];
+    size_t used = 0;
+    for (int k = 0; weft_target_info(k, &target); k++) {
+        if (strcmp(target.name, name) == 0) return k;
+        nearest_offer(&nearest, target.name);
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", k ? ", " : "", target.name);
+    }
+    nearest_hint(&nearest, hint, sizeof hint);
+    report(WEFT_USAGE, "--to %.60s: is not a target; there are %s%s", name[0] ? name : "\"\"", list, hint);
+    return -1;
+}
+
+/* Reads the targets, "three,babylon"; each once. */
+static int targets_read(Delivery *delivery) {
+    char name[64];
+    const char *at = option_text(delivery->options, "--to");
+    if (!at) return report(WEFT_USAGE, "--to is required: names of targets, such as three,babylon,filament");
+    for (const char *end; at; at = *end ? end + 1 : NULL) {
+        end = at + strcspn(at, ",");
+        snprintf(name, sizeof name, "%.*s", (int)(end - at), at);
+        const int target = target_named(name);
+        if (target < 0) return WEFT_USAGE;
+        for (int k = 0; k < delivery->count; k++)
+            if (delivery->files[k].target == target) return report(WEFT_USAGE, "--to %s: is named twice", name);
+        delivery->files[delivery->count++].target = target;
+    }
+    return 0;
+}
+
+/* Names the files after what is delivered: a file's name without its folder and suffix, or words joined by dashes. */
+static void name_make(Delivery *delivery) {
+    const char *what = delivery->what, *slash = strrchr(what, '/');
+    const bool file = access(what, F_OK) == 0;
+    if (strncmp(what, "preset:", 7) == 0 || strncmp(what, "builtin:", 8) == 0) what = strchr(what, ':') + 1;
+    if (file && slash) what = slash + 1;
+    const char *point = file ? strrchr(what, '.') : NULL;
+    size_t length = point && point > what ? (size_t)(point - what) : strlen(what), used = 0;
+    for (size_t k = 0; k < length && used < sizeof delivery->name - 1; k++) {
+        const unsigned char c = (unsigned char)what[k];
+        if (isalnum(c) || c == '_' || c >= 0x80)
+            delivery->name[used++] = (char)c;
+        else if (used && delivery->name[used - 1] != '-')
+            delivery->name[used++] = '-';
+    }
+    while (used && delivery->name[used - 1] == '-') used--;
+    delivery->name[used] = '\0';
+    if (!used) snprintf(delivery->name, sizeof delivery->name, "cloth");
+}
+
+static int name_read(Delivery *delivery) {
+    const char *name = option_text(delivery->options, "--name");
+    if (!name) {
+        name_make(delivery);
+        return 0;
+    }
+    if (!*name || *name == '.' || strchr(name, '/') || strlen(name) >= sizeof delivery->name)
+        return report(WEFT_USAGE, "--name %.80s: is not a name of files: no folder, at most %d characters", name,
+                      DELIVER_NAME - 1);
+    snprintf(delivery->name, sizeof delivery->name, "%s", name);
+    return 0;
+}
+
+static int options_take(Delivery *delivery) {
+    static const char *const metrics[] = {"cosine", "log", "picture", NULL};
+    static const char *const of_drafts[] = {"--sett", "--yarn", "--seed"};
+    const Options *options = delivery->options;
+    int metric = 0;
+    if (!option_choice(options, "--metric", metrics, &metric)) return WEFT_USAGE;
+    delivery->metric = (WeftBrdfMetric)metric;
+    delivery->folder = option_text(options, "-o");
+    if (!delivery->folder) return report(WEFT_USAGE, "-o DIR is required: the folder for the files");
+    const bool asset = path_ends(delivery->what, ".glb") || path_ends(delivery->what, ".gltf");
+    if (option_given(options, "--from") && !asset)
+        return report(WEFT_USAGE, "--from: goes with an asset, a .gltf or .glb");
+    for (size_t k = 0; k < sizeof of_drafts / sizeof *of_drafts && asset; k++)
+        if (option_given(options, of_drafts[k])) return report(WEFT_USAGE, "%s: goes with a draft", of_drafts[k]);
+    if (!option_integer(options, "--size", &delivery->pixels) ||
+        !option_integer(options, "--width", &delivery->width) || !option_integer(options, "--spp", &delivery->spp))
+        return WEFT_USAGE;
+    delivery->height = delivery->width * 3 / 4;
+    return name_read(delivery);
+}
+
+/* Renders a delivered file as its target shades it, and compares it with the reference. */
+static int target_file_judge(Delivery *delivery, TargetFile *file, const Shots *reference, const char *path) {
+    WeftTarget target = {.name = ""};
+    WeftScene *scene = NULL;
+    WeftError error;
+    Shots shots = {.sky = {0}};
+    char sheet[DELIVER_PATH];
+    weft_target_info(file->target, &target);
+    folder_path(delivery, target.name, ".png", sheet);
+    WeftResult loaded = weft_scene_load(path, &scene, NULL, &error);
+    if (loaded == WEFT_OK) loaded = weft_scene_set(scene, "*.profile", target.profile, NULL, &error);
+    int result = loaded == WEFT_OK ? 0 : report_error(&error);
+    if (result == 0) result = shots_take(delivery, scene, &shots);
+    if (result == 0) result = shots_compare(&shots, reference, &file->errors);
+    if (result == 0) result = delivery_sheet(delivery, file, &shots, reference, sheet);
+    shots_free(&shots);
+    weft_scene_free(scene);
+    return result;
+}
+
+static int target_file_make(Delivery *delivery, TargetFile *file, const Shots *reference, double low, double high) {
+    WeftTarget target = {.name = ""};
+    WeftError error;
+    struct stat status;
+    char path[DELIVER_PATH];
+    weft_target_info(file->target, &target);
+    folder_path(delivery, target.name, ".glb", path);
+    delivery_part(delivery, low, low + 0.4 * (high - low));
+    const WeftResult made = weft_deliver(delivery->source, path, delivery->from, file->target, delivery->metric,
+                                         delivery_heed, delivery, &file->delivery, NULL, &error);
+    if (made != WEFT_OK) return made == WEFT_INTERRUPTED ? (int)made : report_error(&error);
+    if (stat(path, &status) == 0) file->bytes = (long long)status.st_size;
+    delivery_part(delivery, low + 0.4 * (high - low), high);
+    return target_file_judge(delivery, file, reference, path);
+}
+
+static int summary_file(const Delivery *delivery) {
+    Output output;
+    char path[DELIVER_PATH];
+    folder_path(delivery, NULL, ".json", path);
+    const int result = output_begin(&output, path);
+    if (result != 0) return result;
+    summary_write(delivery, output.stream);
+    return output_end(&output);
+}
+
+/* Draws the reference, makes the source, then each target's files; all in the temporary folder. */
+static int all_make(Delivery *delivery) {
+    static const double REFERENCE = 0.2, SOURCE = 0.3; /* where these parts of the work end */
+    WeftScene *scene = NULL;
+    Shots reference = {.sky = {0}};
+    delivery_part(delivery, 0.0, 0.05);
+    int result = source_load(delivery, &scene);
+    if (result == 0) result = shots_aim(delivery, scene);
+    delivery_part(delivery, 0.05, REFERENCE);
+    if (result == 0) result = shots_take(delivery, scene, &reference);
+    weft_scene_free(scene);
+    delivery_part(delivery, REFERENCE, SOURCE);
+    if (result == 0) result = source_write(delivery);
+    for (int k = 0; k < delivery->count && result == 0; k++) {
+        const double each = (1.0 - SOURCE) / delivery->count;
+        result =
+            target_file_make(delivery, &delivery->files[k], &reference, SOURCE + each * k, SOURCE + each * (k + 1));
+    }
+    if (result == 0) result = summary_file(delivery);
+    if (result == 0 && interrupt_seen()) result = WEFT_INTERRUPTED;
+    shots_free(&reference);
+    return result;
+}
+
+static int deliver_run(const Options *options) {
+    Delivery delivery = {.options = options, .what = options->operands[0]};
+    int result = targets_read(&delivery);
+    if (result == 0) result = options_take(&delivery);
+    if (result != 0) return result;
+    interrupt_watch();
+    result = folder_begin(&delivery);
+    delivery.progress = progress_start_count(false, "of the delivery", 0.0);
+    if (result == 0) result = all_make(&delivery);
+    progress_finish(&delivery.progress);
+    if (result == 0) result = folder_commit(&delivery);
+    folder_end(&delivery);
+    if (result == WEFT_INTERRUPTED) report(result, "%.300s: interrupted; nothing was written", delivery.what);
+    if (result == 0 && option_given(options, "--json"))
+        summary_write(&delivery, stdout);
+    else if (result == 0)
+        summary_print(&delivery);
+    for (int k = 0; k < delivery.count; k++) weft_delivery_free(&delivery.files[k].delivery);
+    return result;
+}
+
+static void targets_list(void) {
+    WeftTarget target;
+    printf("\nTargets\n");
+    for (int k = 0; weft_target_info(k, &target); k++) layout_entry(stdout, 12, target.name, target.help);
+}
+
+static const Option deliver_options[] = {
+    OPTION_HEADING("Delivery"),
+    OPTION_TEXT("--to", "TARGET,...", NULL, "the viewers it is for, see below"),
+    OPTION_TEXT("-o", "DIR", NULL, "the folder for the files; it is made if it does not exist"),
+    OPTION_TEXT("--name", "NAME", NULL, "what the files are called, before -TARGET; else after X"),
+    OPTION_TEXT("--from", "PROFILE", "khronos", "of an asset: the engine that it was made for"),
+    OPTION_TEXT("--metric", "NAME", "cosine", "what a match makes least: cosine, log or picture, see weft match"),
+    OPTION_ROOT,
+    OPTION_HEADING("Cloth of a draft"),
+    OPTION_TEXT("--sett", "E[,P]", NULL, "warp threads per cm, and picks where they differ"),
+    OPTION_TEXT("--yarn", "WARP[,WEFT]", "cotton",
+                "yarn of warp and weft: cotton, linen, wool, silk, dupion, polyester"),
+    OPTION_WHOLE("--seed", "N", "0", 0, 288, "another cloth of the same draft and yarns"),
+    OPTION_WHOLE("--size", "PIXELS", "1024", 16, 8192,
+                 "textures of woven cloth have as many texels as a square of that side"),
+    OPTION_HEADING("Sheets"),
+    OPTION_WHOLE("--width", "PIXELS", "320", 32, 2048, "of one picture on a sheet"),
+    OPTION_WHOLE("--spp", "N", "32", 1, 4096, "samples per pixel"),
+    OPTION_SWITCH("--json", "the summary on standard output as well"),
+    OPTION_END,
+};
+
+const Verb verb_deliver = {
+    .name = "deliver",
+    .operands = "X [options]",
+    .help = "writes files for viewers that need no plug-in, with sheets and numbers that show how near they come",
+    .operands_least = 1,
+    .operands_most = 1,
+    .options = deliver_options,
+    .lists = targets_list,
+    .notes = "X is an asset (.gltf, .glb), a material (.json, preset:NAME, .u3m), a weaving\n"
+             "draft or its words as in weft weave, or a built-in scene. A measurement has to be\n"
+             "fitted first: weft fit FILE -o fitted.json.\n\n"
+             "For each target DIR/NAME-TARGET.glb is written, and DIR/NAME-TARGET.png: the\n"
+             "reference, the file as its target shades it, and how they differ, near and far.\n"
+             "DIR/NAME.json has all numbers. Extensions that the target does not read are taken\n"
+             "out, and the factors that remain are matched again. Files appear all together at\n"
+             "the end, or none does.\n\n"
+             "There is no target for Unreal Engine 5: weft has no profile of its Substrate, by\n"
+             "which a file could be matched and judged.\n\n"
+             "docs/deliver.md goes from a draft to a page on the web.\n\n"
+             "Examples\n"
+             "  weft deliver \"twill 3/1; warp 1#28385c; weft 1w\" --to three,babylon,filament -o out\n"
+             "  weft deliver preset:woven-charmeuse --to three,core -o out --name satin\n"
+             "  weft deliver chair.glb --from blender4 --to three,filament -o out --json\n",
+    .run = deliver_run,
+};

@@ -1,0 +1,297 @@
+/* `weft deliver`: the files for each target, what they hold, how near they come, and that none is left half done.
+ *
+ * Labels: unsanitized */
+#include "run.h"
+
+#include <math.h>
+#include <sys/stat.h>
+
+#include <jansson.h>
+
+#include "weft/weft.h"
+
+static const char all_targets[] = "khronos,three,babylon,filament,blender,core";
+
+static void delivered(const char *const *arguments) {
+    Ran ran = run_with(NULL, arguments);
+    if (ran.code != 0) fail_msg("%d: %s", ran.code, ran.err);
+    ran_free(&ran);
+}
+
+/* Removes a folder of files, which work_end leaves. */
+static void folder_clear(const char *path) {
+    DIR *folder = opendir(path);
+    if (!folder) return;
+    for (struct dirent *entry; (entry = readdir(folder));) unlinkat(dirfd(folder), entry->d_name, 0);
+    closedir(folder);
+    assert_int_equal(rmdir(path), 0);
+}
+
+static int files_in(const char *path) {
+    DIR *folder = opendir(path);
+    int count = 0;
+    if (!folder) return -1;
+    while (readdir(folder)) count++;
+    closedir(folder);
+    return count - 2;
+}
+
+static json_t *json_of(const char *path) {
+    json_error_t error;
+    json_t *json = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
+    if (!json) fail_msg("%s: %s", path, error.text);
+    return json;
+}
+
+/* The JSON chunk of a .glb, without a reader of weft's own. */
+static json_t *glb_json(const char *path) {
+    size_t size;
+    json_error_t error;
+    char *bytes = file_bytes(path, &size);
+    assert_non_null(bytes);
+    assert_true(size > 20 && memcmp(bytes, "glTF", 4) == 0 && memcmp(bytes + 16, "JSON", 4) == 0);
+    const unsigned char *length = (const unsigned char *)bytes + 12;
+    const size_t text = length[0] + 256u * length[1] + 65536u * length[2];
+    json_t *json = json_loadb(bytes + 20, text, 0, &error);
+    if (!json) fail_msg("%s: %s", path, error.text);
+    free(bytes);
+    return json;
+}
+
+static double number(const json_t *json, const char *key) {
+    const json_t *value = json_object_get(json, key);
+    if (!json_is_number(value)) fail_msg("\"%s\" is no number", key);
+    return json_number_value(value);
+}
+
+static json_t *part(const json_t *material, const char *extension) {
+    return json_object_get(json_object_get(material, "extensions"), extension);
+}
+
+static const json_t *target_of(const json_t *summary, const char *name) {
+    size_t k;
+    json_t *target, *targets = json_object_get(summary, "targets");
+    json_array_foreach(targets, k, target) {
+        if (strcmp(json_string_value(json_object_get(target, "target")), name) == 0) return target;
+    }
+    fail_msg("there is no target %s", name);
+    return NULL;
+}
+
+/* What each viewer must not be given; ends with NULL. */
+static const struct {
+    const char *target, *never[8];
+} forbidden[] = {
+    {"three", {"KHR_materials_fuzz", "KHR_materials_coat", "KHR_materials_diffuse_transmission", NULL}},
+    {"babylon", {"KHR_materials_fuzz", NULL}},
+    {"filament", {"KHR_materials_ior", "KHR_materials_anisotropy", "KHR_materials_fuzz", NULL}},
+    {"blender", {"KHR_materials_fuzz", "KHR_materials_coat", NULL}},
+    {"core",
+     {"KHR_materials_ior", "KHR_materials_anisotropy", "KHR_materials_fuzz", "KHR_materials_sheen",
+      "KHR_materials_specular", "KHR_materials_clearcoat", NULL}},
+};
+
+/* Opens what was written for each target by other means than weft's, and by weft. */
+static void files_hold_what_targets_read(const char *folder, const char *name) {
+    char path[128];
+    for (size_t k = 0; k < sizeof forbidden / sizeof *forbidden; k++) {
+        snprintf(path, sizeof path, "%s/%s-%s.glb", folder, name, forbidden[k].target);
+        json_t *root = glb_json(path);
+        char *text = json_dumps(root, 0);
+        for (const char *const *never = forbidden[k].never; *never; never++)
+            if (strstr(text, *never)) fail_msg("%s has %s", path, *never);
+        if (strstr(text, "\"weft\":")) fail_msg("%s has extras.weft", path);
+        free(text);
+        json_decref(root);
+        WeftScene *scene;
+        WeftError error;
+        if (weft_scene_load(path, &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+        weft_scene_free(scene);
+        WeftImage sheet;
+        snprintf(path, sizeof path, "%s/%s-%s.png", folder, name, forbidden[k].target);
+        assert_int_equal(weft_image_read(path, &sheet, NULL, NULL), WEFT_OK);
+        assert_true(sheet.width > sheet.height / 2 && sheet.height > 64);
+        weft_image_free(&sheet);
+    }
+}
+
+/* The numbers of every target; far and near, colours differ by no more than `most`. */
+static void numbers_are_within(const char *path, double most, double sky) {
+    json_t *summary = json_of(path), *target;
+    size_t k;
+    assert_true(json_array_size(json_object_get(summary, "targets")) == 6);
+    json_array_foreach(json_object_get(summary, "targets"), k, target) {
+        const json_t *errors = json_object_get(target, "errors");
+        const char *name = json_string_value(json_object_get(target, "target"));
+        for (int v = 0; v < 2; v++) {
+            const json_t *view = json_object_get(errors, v ? "far" : "near");
+            if (!(number(view, "mean_color") <= most) || !(number(view, "profile_l1") <= most))
+                fail_msg("%s: %s: %g, columns %g", name, v ? "far" : "near", number(view, "mean_color"),
+                         number(view, "profile_l1"));
+            assert_true(number(view, "flip") >= 0.0 && number(view, "flip") < 0.5 && number(view, "contrast") > 0.0);
+        }
+        if (!(fabs(number(errors, "even_sky")) <= sky)) fail_msg("%s: sky %g", name, number(errors, "even_sky"));
+        assert_true(json_array_size(json_object_get(target, "materials")) >= 1);
+        assert_true(number(target, "bytes") > 100.0);
+    }
+    json_decref(summary);
+}
+
+static void draft_is_delivered_to_every_target(void **state) {
+    (void)state;
+    delivered(LIST("deliver", "twill 3/1; warp 1#28385c; weft 1w; sett 26 18", "--to", all_targets, "-o", "cloth",
+                   "--size", "128", "--width", "64", "--spp", "8"));
+    assert_int_equal(files_in("cloth"), 13); /* and nothing of the work */
+    files_hold_what_targets_read("cloth", "twill-3-1-warp-1-28385c-weft-1w-sett-26-18");
+    numbers_are_within("cloth/twill-3-1-warp-1-28385c-weft-1w-sett-26-18.json", 0.5, 0.4);
+    json_t *summary = json_of("cloth/twill-3-1-warp-1-28385c-weft-1w-sett-26-18.json");
+    const json_t *lost = json_object_get(target_of(summary, "filament"), "lost");
+    assert_true(json_array_size(lost) == 1);
+    assert_non_null(strstr(json_string_value(json_array_get(lost, 0)), "highlights are round"));
+    json_decref(summary);
+    folder_clear("cloth");
+}
+
+/* A smooth material can be matched far better than threads: the worst is core, which has no rim. */
+static void material_is_delivered_near_the_truth(void **state) {
+    (void)state;
+    delivered(LIST("deliver", "preset:velvet", "--to", all_targets, "-o", "soft", "--name", "v", "--width", "64",
+                   "--spp", "16"));
+    files_hold_what_targets_read("soft", "v");
+    numbers_are_within("soft/v.json", 0.35, 0.3);
+    json_t *summary = json_of("soft/v.json");
+    static const char *const near[] = {"three", "babylon", "filament", "blender"};
+    for (int k = 0; k < 4; k++) {
+        const json_t *errors = json_object_get(target_of(summary, near[k]), "errors");
+        assert_true(number(json_object_get(errors, "far"), "mean_color") < 0.06);
+        assert_true(fabs(number(errors, "even_sky")) < 0.05);
+    }
+    json_decref(summary);
+    folder_clear("soft");
+}
+
+/* A quad with normals and what the viewers differ in, and things of others that have to stay. */
+static void asset_make(const char *extension) {
+    static const char head[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],"
+        "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"translation\":[0,0,3],\"name\":\"eye\"}],"
+        "\"cameras\":[{\"name\":\"front\",\"type\":\"perspective\",\"perspective\":{\"yfov\":0.6,\"znear\":0.1}}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+        "\"min\":[-1,-1,0],\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA\"}],"
+        "\"materials\":[{\"name\":\"satin\",\"doubleSided\":true,\"extras\":{\"mine\":1},"
+        "\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.1,0.1,1],\"metallicFactor\":0,\"roughnessFactor\":0.3},"
+        "\"extensions\":{";
+    char text[4096];
+    snprintf(text, sizeof text,
+             "%s%s}}],\"extensionsUsed\":[\"KHR_materials_sheen\",\"KHR_materials_ior\","
+             "\"KHR_materials_fuzz\",\"KHR_materials_anisotropy\",\"KHR_materials_pbrSpecularGlossiness\"]}",
+             head, extension);
+    file_make("asset.gltf", text, strlen(text));
+}
+
+static const char everything[] =
+    "\"KHR_materials_sheen\":{\"sheenColorFactor\":[0.5,0.4,0.4],\"sheenRoughnessFactor\":0.4},"
+    "\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.7},\"KHR_materials_ior\":{\"ior\":1.8},"
+    "\"KHR_materials_fuzz\":{\"fuzzFactor\":0.3}";
+
+static void asset_keeps_all_that_the_target_reads(void **state) {
+    (void)state;
+    asset_make(everything);
+    delivered(LIST("deliver", "asset.gltf", "--to", all_targets, "-o", "asset", "--width", "48", "--spp", "8"));
+    files_hold_what_targets_read("asset", "asset");
+    numbers_are_within("asset/asset.json", 0.1, 0.25);
+    json_t *root = glb_json("asset/asset-filament.glb");
+    const json_t *material = json_array_get(json_object_get(root, "materials"), 0);
+    /* the index of refraction became a specular colour: (0.8 / 2.8)^2 / 0.04 */
+    const json_t *color = json_object_get(part(material, "KHR_materials_specular"), "specularColorFactor");
+    assert_true(fabs(json_number_value(json_array_get(color, 1)) - 2.040816) < 1e-4);
+    assert_non_null(part(material, "KHR_materials_sheen"));
+    assert_true(number(json_object_get(material, "extras"), "mine") > 0.5);
+    assert_string_equal(json_string_value(json_object_get(json_array_get(json_object_get(root, "nodes"), 1), "name")),
+                        "eye");
+    json_decref(root);
+    root = glb_json("asset/asset-khronos.glb");
+    material = json_array_get(json_object_get(root, "materials"), 0);
+    assert_non_null(part(material, "KHR_materials_fuzz"));
+    json_decref(root);
+    root = glb_json("asset/asset-core.glb");
+    assert_null(json_object_get(root, "extensionsUsed"));
+    json_decref(root);
+    json_t *summary = json_of("asset/asset.json");
+    assert_true(json_array_size(json_object_get(target_of(summary, "khronos"), "lost")) == 0);
+    assert_true(json_array_size(json_object_get(target_of(summary, "core"), "lost")) == 4);
+    json_decref(summary);
+    folder_clear("asset");
+}
+
+static void senseless_delivery_is_refused(void **state) {
+    (void)state;
+    asset_make("\"KHR_materials_pbrSpecularGlossiness\":{\"glossinessFactor\":0.5}");
+    assert_complaint(NULL, LIST("deliver", "asset.gltf", "--to", "three", "-o", "no"), WEFT_INPUT,
+                     "weft match ASSET --workflow metallic");
+    assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "thre", "-o", "no"), WEFT_USAGE,
+                     "khronos, three, babylon, filament, blender, core; did you mean three?");
+    assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three,,core", "-o", "no"), WEFT_USAGE,
+                     "is not a target");
+    assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three,three", "-o", "no"), WEFT_USAGE,
+                     "is named twice");
+    assert_complaint(NULL, LIST("deliver", "preset:velvet", "-o", "no"), WEFT_USAGE, "--to is required");
+    assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three"), WEFT_USAGE, "-o DIR is required");
+    assert_complaint(NULL, LIST("deliver", "felt.binary", "--to", "three", "-o", "no"), WEFT_USAGE, "weft fit FILE");
+    assert_complaint(NULL, LIST("deliver", "nothing here", "--to", "three", "-o", "no"), WEFT_USAGE, "nothing");
+    assert_complaint(NULL, LIST("deliver", "gone.glb", "--to", "three", "-o", "no"), WEFT_INPUT, "gone.glb");
+    assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three", "--from", "three", "-o", "no"), WEFT_USAGE,
+                     "--from: goes with an asset");
+    assert_complaint(NULL, LIST("deliver", "asset.gltf", "--to", "three", "--sett", "20", "-o", "no"), WEFT_USAGE,
+                     "--sett: goes with a draft");
+    assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three", "--name", "../x", "-o", "no"), WEFT_USAGE,
+                     "is not a name of files");
+    assert_int_equal(files_in("no"), -1); /* the folder is gone with what it was made for */
+    assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three", "-o", "asset.gltf"), WEFT_RESOURCES,
+                     "asset.gltf");
+    assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three", "-o", "missing/below"), WEFT_RESOURCES,
+                     "missing/below");
+    /* a file in the place of one of the results is not lost */
+    assert_int_equal(mkdir("taken", 0777), 0);
+    assert_int_equal(mkdir("taken/v-three.png", 0777), 0);
+    assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three", "--name", "v", "-o", "taken"),
+                     WEFT_RESOURCES, "taken/v-three.png");
+    assert_int_equal(files_in("taken"), 1);
+    assert_int_equal(rmdir("taken/v-three.png"), 0);
+    folder_clear("taken");
+}
+
+/* The folder that was there keeps what it had, and one that was made for the delivery goes again. */
+static void interrupted_delivery_leaves_nothing(void **state) {
+    (void)state;
+    assert_int_equal(mkdir("kept", 0777), 0);
+    file_make("kept/old.txt", "old", 3);
+    static const char *const folders[] = {"kept", "fresh"};
+    for (int k = 0; k < 2; k++) {
+        pid_t child = program_start(WEFT_PROGRAM, NULL,
+                                    LIST("deliver", "preset:woven-denim", "--to", "three,core", "-o", folders[k],
+                                         "--spp", "4096", "--size", "64"));
+        await_handler(child);
+        sleep_seconds(0.5 + k);
+        kill(child, SIGINT);
+        Ran ran = program_end(child);
+        assert_int_equal(ran.code, 130);
+        assert_true(one_complaint(ran.err) && strstr(ran.err, "interrupted; nothing was written"));
+        ran_free(&ran);
+    }
+    assert_int_equal(files_in("kept"), 1);
+    assert_int_equal(files_in("fresh"), -1);
+    folder_clear("kept");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(draft_is_delivered_to_every_target),    cmocka_unit_test(material_is_delivered_near_the_truth),
+        cmocka_unit_test(asset_keeps_all_that_the_target_reads), cmocka_unit_test(senseless_delivery_is_refused),
+        cmocka_unit_test(interrupted_delivery_leaves_nothing),
+    };
+    return cmocka_run_group_tests(tests, work_begin, work_end);
+}
