@@ -96,8 +96,8 @@ typedef struct WeftMatchJob {
 WEFT_API WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftBrdfMetric metric, int threads,
                                     WeftProgress progress, void *user, WeftError *error);
 
-/* The result for one material of an asset, in its glTF factors. With textures, `found` is of the average of texel times
- * factor. */
+/* The result for one material of an asset, in its glTF factors. With textures, the errors of `found` are means over some
+ * texels. */
 typedef struct WeftAssetMatch {
     char name[64];        /* of the material, truncated */
     int changed;          /* 0: it has no sheen, or is unlit, and stays as it is */

@@ -424,10 +424,13 @@ static WeftResult material_rewrite(const AssetSearch *self, Rewrite *rewrite, in
                                .material = &match->copied,
                                .curves = &self->searches[match->search - 1].curves,
                                .factors = &self->materials[index].factors,
+                               .from = self->from,
+                               .to = self->to,
+                               .metric = self->metric,
                                .progress = self->progress,
                                .user = self->user};
     if (!material) return WEFT_OK;
-    WeftResult result = texels_rewrite(&texels, rewrite, material, &match->matched, &match->maps, error);
+    WeftResult result = texels_rewrite(&texels, rewrite, material, &match->matched, &match->maps, &match->found, error);
     match->clipped = is_clipped(&self->materials[index].factors, match->maps);
     return result == WEFT_OK ? material_write(rewrite, index, match, error) : result;
 }

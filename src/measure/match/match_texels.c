@@ -7,7 +7,9 @@
 #include "base/memory.h"
 #include "gltf/asset/material_fields.h"
 #include "image/pixel.h"
+#include "measure/bsdf/halton.h"
 #include "shading/dialect/tone.h"
+#include "shading/material/choice.h"
 
 /* The inputs whose textures may be rewritten. */
 static const InputId inputs[] = {INPUT_sheen_color, INPUT_base_color, INPUT_sheen_roughness, INPUT_roughness};
@@ -35,8 +37,22 @@ typedef struct Canvas {
     WeftImage image;
 } Canvas;
 
+/* What may be written: the material as it is, with other factors, with other textures. */
+typedef enum Offer { OFFER_COPY, OFFER_FACTORS, OFFER_TEXELS, OFFERS } Offer;
+
+/* The errors of what may be written, at one texel. */
+typedef struct Weighed {
+    double errors[OFFERS];
+    WeftResult result;
+    WeftError error;
+} Weighed;
+
+enum { TEXELS_WEIGHED = 16 };
+
 typedef struct TexelWork {
     const TexelMatch *match;
+    const WeftMaterial *to; /* with the factors of what is not edited */
+    Weighed weighed[TEXELS_WEIGHED];
     Edit edits[EDITS_MOST];
     Canvas canvases[EDITS_MOST];
     int edit_count, canvas_count;
@@ -322,13 +338,114 @@ static WeftResult edits_run(TexelWork *self, Rewrite *rewrite, json_t *material,
     return result;
 }
 
+static const Edit *edit_of(const TexelWork *self, int input) {
+    for (int k = 0; k < self->edit_count; k++)
+        if ((int)self->edits[k].input == input) return &self->edits[k];
+    return NULL;
+}
+
+static bool is_matched(InputId input) {
+    bool one = input == INPUT_specular;
+    for (int k = 0; k < EDITS_MOST; k++) one |= inputs[k] == input;
+    return one;
+}
+
+/* Makes the material that a texel shows: as the file has it, or as what may be written would. */
+static WeftMaterial texel_material(const TexelWork *self, Offer offer, float u, float v) {
+    const TexelMatch *match = self->match;
+    WeftMaterial out = *match->material;
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        WeftInput *input = &out.inputs[k];
+        const WeftInputKind kind = input_infos[k].kind;
+        const Edit *edit = offer == OFFER_TEXELS ? edit_of(self, k) : NULL;
+        const WeftMaterial *numbers = offer == OFFER_TEXELS ? self->to : match->factors;
+        const Texel texel = texel_of(match, (InputId)k, u, v);
+        double value[3];
+        if (edit) values_at(match, edit, u, v, value);
+        for (int c = 0; c < input_value_count((InputId)k); c++) {
+            const bool is_number = kind == WEFT_INPUT_COLOR || kind == WEFT_INPUT_SCALAR;
+            if (offer != OFFER_COPY && is_matched((InputId)k))
+                input->value[c] = fminf(numbers->inputs[k].value[c], 1.0f);
+            if (input->texture && is_number) input->value[c] *= texel.c[kind == WEFT_INPUT_COLOR ? c : input->channel];
+            if (edit) input->value[c] = (float)fmin(value[c], 1.0);
+        }
+        input->texture = 0;
+    }
+    return out;
+}
+
+/* Computes the errors at one texel. */
+static void texel_weigh(void *user, int item, int thread) {
+    (void)thread;
+    TexelWork *self = user;
+    Weighed *weighed = &self->weighed[item];
+    const float u = (float)halton(item + 1, 2), v = (float)halton(item + 1, 3);
+    WeftReflection *original = NULL;
+    WeftMaterial source = texel_material(self, OFFER_COPY, u, v);
+    weft_material_choose(&source, CHOICE_profile, self->match->from);
+    weighed->result = weft_reflection_create(&source, &original, &weighed->error);
+    for (Offer offer = OFFER_COPY; offer < OFFERS && weighed->result == WEFT_OK; offer++) {
+        WeftReflection *other = NULL;
+        WeftMaterial material = texel_material(self, offer, u, v);
+        weft_material_choose(&material, CHOICE_profile, self->match->to);
+        weighed->result = weft_reflection_create(&material, &other, &weighed->error);
+        if (weighed->result == WEFT_OK)
+            weighed->result = weft_brdf_distance(other, original, WEFT_PART_ALL, self->match->metric,
+                                                 &weighed->errors[offer], &weighed->error);
+        weft_reflection_free(other);
+    }
+    weft_reflection_free(original);
+}
+
+/* Finds what is nearest at the texels, and the errors. */
+static WeftResult offers_weigh(TexelWork *self, Offer *best, WeftMatch *found, WeftError *error) {
+    TexelMatch match = *self->match;
+    double sums[OFFERS] = {0.0};
+    if (!watch_loop(&self->watch, 0, TEXELS_WEIGHED, texel_weigh, self, while_rewriting, &match))
+        return WEFT_INTERRUPTED;
+    for (int k = 0; k < TEXELS_WEIGHED; k++) {
+        const Weighed *weighed = &self->weighed[k];
+        if (weighed->result != WEFT_OK && error) *error = weighed->error;
+        if (weighed->result != WEFT_OK) return weighed->result;
+        for (int n = 0; n < OFFERS; n++) sums[n] += weighed->errors[n] / TEXELS_WEIGHED;
+    }
+    for (Offer offer = OFFER_TEXELS; offer-- > 0;)
+        if (sums[offer] < sums[*best]) *best = offer;
+    found->copied = sums[OFFER_COPY];
+    found->matched = sums[*best];
+    return WEFT_OK;
+}
+
+static bool has_textures(const WeftMaterial *material) {
+    bool any = false;
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        const WeftInputKind kind = input_infos[k].kind;
+        any |= material->inputs[k].texture && (kind == WEFT_INPUT_COLOR || kind == WEFT_INPUT_SCALAR);
+    }
+    return any;
+}
+
+/* Takes the factors of what is nearest. */
+static void offer_take(const TexelMatch *match, Offer offer, WeftMaterial *to) {
+    for (int k = 0; k < INPUT_COUNT && offer != OFFER_TEXELS; k++) {
+        const WeftMaterial *from = offer == OFFER_COPY ? match->material : match->factors;
+        for (int c = 0; c < 3 && is_matched((InputId)k); c++)
+            to->inputs[k].value[c] = fminf(from->inputs[k].value[c], 1.0f);
+    }
+}
+
 WeftResult texels_rewrite(const TexelMatch *match, Rewrite *rewrite, json_t *material, WeftMaterial *to, uint64_t *maps,
-                          WeftError *error) {
-    TexelWork self = {.match = match};
+                          WeftMatch *found, WeftError *error) {
+    TexelWork self = {.match = match, .to = to};
+    Offer offer = OFFER_TEXELS;
+    WeftResult result = WEFT_OK;
     for (int k = 0; k < EDITS_MOST; k++)
         self.edit_count += edit_needed(match, material, inputs[k], to, &self.edits[self.edit_count]);
-    WeftResult result = edits_run(&self, rewrite, material, error);
-    for (int k = 0; k < self.edit_count && result == WEFT_OK; k++) {
+    if (has_textures(match->material)) result = offers_weigh(&self, &offer, found, error);
+    if (result != WEFT_OK) return result;
+    offer_take(match, offer, to);
+    if (offer == OFFER_TEXELS) result = edits_run(&self, rewrite, material, error);
+    for (int k = 0; k < self.edit_count && result == WEFT_OK && offer == OFFER_TEXELS; k++) {
         const Edit *edit = &self.edits[k];
         for (int c = 0; c < input_value_count(edit->input); c++)
             to->inputs[edit->input].value[c] = (float)edit->factor[c];

@@ -11,7 +11,9 @@ typedef struct TexelMatch {
     const WeftMaterial *material; /* with its textures, as the file has it */
     const MatchCurves *curves;
     const WeftMaterial *factors; /* with the factors of the match of the mean, which may be above 1 */
-    WeftProgress progress;       /* may be NULL */
+    int from, to;                /* profiles */
+    WeftBrdfMetric metric;
+    WeftProgress progress; /* may be NULL */
     void *user;
 } TexelMatch;
 
@@ -20,8 +22,10 @@ bool texels_joined(const WeftMaterial *material);
 
 /* Rewrites those textures of the colours and roughnesses of base and sheen of which a factor does not do: into new
  * images, which replace the old ones in the JSON of the material. Uses of one texture whose channels differ share an
- * image. Without a texture, a colour whose gain varies gets one, placed as the texture that it depends on. Sets in `to` the
- * factors of what was rewritten, and the factors that do instead of rewriting; *maps gets bit k for an input k that was
- * rewritten. Fails with WEFT_INTERRUPTED or _MEMORY. */
+ * image. Without a texture, a colour whose gain varies gets one, placed as the texture that it depends on. `to` has the
+ * factors of the match, at most 1, and receives those of what was rewritten, and the factors that do instead of
+ * rewriting; *maps gets bit k for an input k that was rewritten. At some texels, new textures are weighed against the
+ * factors alone, and against the material as it is: what is nearest in the mean is written, and if the material has
+ * textures, found receives these errors. Fails with WEFT_INTERRUPTED or _MEMORY. */
 WeftResult texels_rewrite(const TexelMatch *match, Rewrite *rewrite, json_t *material, WeftMaterial *to, uint64_t *maps,
-                          WeftError *error);
+                          WeftMatch *found, WeftError *error);
