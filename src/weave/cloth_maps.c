@@ -28,7 +28,7 @@ static const struct {
 } kinds[MAP_COUNT] = {
     {"base_color.png", 4}, {"normal.png", 3}, {"occlusion_roughness.png", 3}, {"anisotropy.png", 3}, {"height.png", 1}};
 
-static const char back_name[] = "back-"; /* that the files of the other face begin with */
+static const char back_name[] = "back-"; /* begins the names of the other face's files */
 
 typedef struct MapBake {
     Weave weave;      /* with a cycle */

@@ -173,7 +173,7 @@ static void save_option_writes_the_scene(void **state) {
     quietly(LIST("render", "builtin:cloth", TINY, "--quiet", "--camera=0", "--material=saved.json", "-o", "c.exr"));
     assert_true(same_bytes("c.exr", one, size));
     free(one);
-    assert_complaint(NULL, LIST("render", "builtin:cloth", "--save=a.obj"), 2, "not a .glb, .gltf or .json");
+    assert_complaint(NULL, LIST("render", "builtin:cloth", "--save=a.obj"), 2, "not a .glb, .gltf, .json, .mtlx, .u3m or .u3ma");
     assert_complaint(NULL, LIST("render", "builtin:cloth", "--save=none/a.glb"), 4, "none/a.glb");
     assert_complaint(NULL, LIST("render", "none.gltf", "--save=a.glb"), 3, "none.gltf");
 }

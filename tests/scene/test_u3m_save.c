@@ -121,7 +121,7 @@ static void strange_write(void) {
     text_write("x.u3m", text);
 }
 
-static void what_did_not_change_is_written_byte_for_byte(void **state) {
+static void members_that_did_not_change_are_written_byte_for_byte(void **state) {
     (void)state;
     char folder[SCRATCH_SIZE];
     assert_true(scratch_enter(folder));
@@ -414,7 +414,7 @@ static void a_weave_tells_its_construction(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_did_not_change_is_written_byte_for_byte),
+        cmocka_unit_test(members_that_did_not_change_are_written_byte_for_byte),
         cmocka_unit_test(only_what_changed_is_replaced),
         cmocka_unit_test(every_number_comes_back_on_both_faces),
         cmocka_unit_test(textures_come_back_from_packed_channels),

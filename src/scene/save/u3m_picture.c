@@ -36,9 +36,9 @@ static const Texture *texture_of(const U3mPictures *pictures, const Input *input
 static float number_of(const float *p, int channels, const U3mPicture *picture) {
     switch (picture->pixels) {
     case U3M_LUMINANCE: return channels < 3 ? p[0] : 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
-    case U3M_TURNS: {
-        const float turn = atan2f(2.0f * p[channels > 1 ? 1 : 0] - 1.0f, 2.0f * p[0] - 1.0f) / (2.0f * PI_FLOAT);
-        return turn < 0.0f ? turn + 1.0f : turn;
+    case U3M_ANGLE: {
+        const float part = atan2f(2.0f * p[channels > 1 ? 1 : 0] - 1.0f, 2.0f * p[0] - 1.0f) / (2.0f * PI_FLOAT);
+        return part < 0.0f ? part + 1.0f : part;
     }
     case U3M_AS_IS:
     case U3M_CHANNEL: break;
@@ -112,7 +112,7 @@ static WeftResult file_add(U3mPictures *pictures, U3mPicture *picture, const Tex
     FileBytes bytes = {0};
     *added = false;
     if (!texture->path || texture->inverted) return WEFT_OK;
-    if (file_read(texture->path, FILE_MOST, &bytes, NULL) != WEFT_OK) return WEFT_OK; /* its pixels are there */
+    if (file_read(texture->path, FILE_MOST, &bytes, NULL) != WEFT_OK) return WEFT_OK; /* the scene has its pixels */
     const char *type = image_media_type(bytes.data, bytes.size);
     const bool png = type && strcmp(type, "image/png") == 0, jpeg = type && strcmp(type, "image/jpeg") == 0;
     WeftResult result = WEFT_OK;

@@ -6,12 +6,12 @@
 #include "scene/record/scene.h"
 #include "scene/u3m/u3m_package.h"
 
-/* What the picture is made of the texture. */
+/* Tells what of the texture the picture has. */
 typedef enum U3mPixels {
     U3M_AS_IS = 0, /* colours or normals, as the file has them where it is a PNG or JPEG */
     U3M_CHANNEL,   /* one channel, in all three */
     U3M_LUMINANCE, /* the luminance of its colours, linear */
-    U3M_TURNS      /* the angle of its directions as part of a whole turn */
+    U3M_ANGLE      /* the angle of its directions as part of a whole turn */
 } U3mPixels;
 
 typedef struct U3mPicture {
@@ -28,7 +28,7 @@ typedef struct U3mPictures {
     const WeftScene *scene;
     int material;
     const char *path; /* of the .u3m or .u3ma */
-    double metres;    /* that a unit of texture coordinates spans; 0: as the mesh has it */
+    double metres;    /* a unit of texture coordinates spans them; 0: as the mesh tells */
     U3mPackage *package;
     const WeftLog *log;
     WeftError *error;

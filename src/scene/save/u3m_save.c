@@ -77,7 +77,7 @@ typedef struct U3mMember {
 
 static U3mPixels pixels_of(const U3mMember *member) {
     if (member->field->kind != U3M_NUMBER) return U3M_AS_IS;
-    if (input_infos[member->field->input].kind == WEFT_INPUT_DIRECTION) return U3M_TURNS;
+    if (input_infos[member->field->input].kind == WEFT_INPUT_DIRECTION) return U3M_ANGLE;
     return member->look->luminance[member->field->input] ? U3M_LUMINANCE : U3M_CHANNEL;
 }
 
@@ -105,11 +105,11 @@ static float within(U3mWriter *w, const U3mMember *member, float x) {
 /* Returns the member "texture" of a number, and the mean of its values. */
 static json_t *number_texture(const U3mMember *member, const U3mPicture *picture, json_t *image, float *mean) {
     const float x = member->input->value[0];
-    const bool turns = picture->pixels == U3M_TURNS;
-    const float factor = turns ? 1.0f : x * picture->scale / member->field->scale,
-                offset = turns ? number_of(member, x) : (0.0f - member->field->offset) / member->field->scale;
-    *mean = turns ? picture->mean[0] + offset : x * picture->mean[0] / member->field->scale + offset;
-    *mean = turns ? *mean - floorf(*mean) : fminf(fmaxf(*mean, member->field->low), member->field->high);
+    const bool angle = picture->pixels == U3M_ANGLE;
+    const float factor = angle ? 1.0f : x * picture->scale / member->field->scale,
+                offset = angle ? number_of(member, x) : (0.0f - member->field->offset) / member->field->scale;
+    *mean = angle ? picture->mean[0] + offset : x * picture->mean[0] / member->field->scale + offset;
+    *mean = angle ? *mean - floorf(*mean) : fminf(fmaxf(*mean, member->field->low), member->field->high);
     return json_pack("{s:o, s:o, s:o}", "factor", u3m_number(factor), "offset", u3m_number(offset), "image", image);
 }
 
@@ -417,7 +417,7 @@ static void write_all(U3mWriter *w, const WeftTextile *textile) {
     char now[32];
     Material given = relief_given(w->scene, w->index), told = given;
     if (!w->source && cloth_of(w)) threads_take(cloth_of(w), &given.inputs[INPUT_base_color]);
-    if (w->source && w->source->material.cloth) told.cloth = 0; /* its construction is in the file */
+    if (w->source && w->source->material.cloth) told.cloth = 0; /* the file has its construction */
     now_write(now);
     document_begin(w, now);
     json_t *material = json_object_get(w->root, "material");

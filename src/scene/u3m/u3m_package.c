@@ -188,7 +188,7 @@ static WeftResult write_archive(const U3mPackage *package, const void *text, siz
     if (source) zip_source_keep(source);
     zip_t *zip = source ? zip_open_from_source(source, ZIP_TRUNCATE, &why) : NULL;
     if (zip && zip_fill(zip, package, name, text, size)) bytes = zip_bytes(source);
-    if (source && !zip) zip_source_free(source); /* which the zip would have done */
+    if (source && !zip) zip_source_free(source); /* the zip would have freed it */
     if (source) zip_source_free(source);
     zip_error_fini(&why);
     WeftResult result = WEFT_OK;
