@@ -108,6 +108,10 @@ typedef struct WeftRasterView {
     int plain_textures; /* not 0: textures as the path tracer reads them, without smaller copies */
     WeftFloor floor;    /* only with part all */
     int hide_lights;    /* not 0: polygon lights emit, but the camera looks through them */
+    /* Pixels along the side of a square that share a point of shading, for a picture in motion; up to 8. Outlines keep all
+     * their pixels: the light of a pixel is that of the points around it on its own surface. Points of a polygon's soft
+     * shadow are shared by neighbours too. 0 or 1: each pixel has a point. A part that is no light has all its points. */
+    int shading_rate;
 } WeftRasterView;
 
 /* Draws one picture into the raster's own target. A shader that does not compile is an error only where there

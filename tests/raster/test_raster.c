@@ -299,22 +299,23 @@ static void polygon_light_agrees_with_the_path_tracer(void **state) {
     weft_scene_free(scene);
 }
 
-static void steady_frames_create_no_objects(void **state) {
-    (void)state;
-    need_gl();
+/* Draws frames under a camera that moves, each with so many pixels along the side of a shading point. */
+static void draw_steady_frames(int rate) {
     WeftScene *scene = under_a_lamp();
     WeftError error;
     const WeftLight light = {.direction = {0.0f, -1.0f, -0.5f}, .color = {1.0f, 1.0f, 1.0f}};
     assert_int_equal(weft_scene_add_light(scene, &light, &error), WEFT_OK);
     WeftRaster *raster = raster_of(scene, WEFT_GL_DESKTOP);
+    WeftRasterView moving = front_view;
+    moving.shading_rate = rate;
     COUNTED(COUNT)
-    draw(raster, &front_view);
+    draw(raster, &moving);
     int first = made;
     made = 0;
     for (int k = 0; k < 20; k++) {
         char camera[64];
         snprintf(camera, sizeof camera, "%g,0.5,3;0,0,0;30", 0.1 * k);
-        WeftRasterView view = front_view;
+        WeftRasterView view = moving;
         view.camera = camera;
         draw(raster, &view);
     }
@@ -324,6 +325,13 @@ static void steady_frames_create_no_objects(void **state) {
     assert_true(weft_raster_info(raster).samplers <= 16);
     weft_raster_free(raster);
     weft_scene_free(scene);
+}
+
+static void steady_frames_create_no_objects(void **state) {
+    (void)state;
+    need_gl();
+    draw_steady_frames(1);
+    draw_steady_frames(3);
 }
 
 static void steady_frames_of_a_sum_create_no_objects(void **state) {

@@ -33,14 +33,28 @@ static void put_reference(const WeftRaster *self, Picture *out) {
     put_row(out->ray_count, (float)rays->emitters, (float)self->sums.done, (float)rays->first[4], 0.0f);
 }
 
-/* Fills that block for a view of the scene, uploads it and binds it. seen: with which camera. */
-static void upload_view(const WeftRaster *self, const View *seen, const WeftRasterView *view) {
+/* Fits the picture into the lower left of its shading points, whose squares of pixels may reach beyond its edges. */
+static void fit_points(const Coarse *coarse, const WeftRasterView *view, float to_clip[16]) {
+    const float rate = (float)view->shading_rate, x = (float)view->width / (rate * (float)coarse->width),
+                y = (float)view->height / (rate * (float)coarse->height);
+    for (int column = 0; column < 16; column += 4) {
+        to_clip[column] = x * to_clip[column] + (x - 1.0f) * to_clip[column + 3];
+        to_clip[column + 1] = y * to_clip[column + 1] + (y - 1.0f) * to_clip[column + 3];
+    }
+}
+
+/* Fills that block for a view of the scene, uploads it and binds it. seen: with which camera. points: of its shading points,
+ * where they are fewer than pixels. */
+static void upload_view(const WeftRaster *self, const View *seen, const WeftRasterView *view, bool points) {
     Picture picture;
     picture_make(self->scene, seen, &self->polygons, &self->shadows, &self->floor, &picture);
     picture.floor_light[0] = self->sky_on_floor;
     picture.floor_light[2] = self->floor_shaded ? 1.0f : 0.0f;
     put_reference(self, &picture);
     picture.texture_levels[0] = view->plain_textures ? 0.0f : 1.0f;
+    put_row(picture.coarse, is_coarse(view) && !self->summing ? (float)COARSE_SIDE : 1.0f, (float)view->shading_rate,
+            0.0f, 0.0f);
+    if (points) fit_points(&self->coarse, view, picture.to_clip);
     upload_picture(self, &picture);
 }
 
@@ -154,6 +168,7 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, int k, GLenum culled, Me
     glBindTexture(GL_TEXTURE_2D_ARRAY, program->tables);
     glActiveTexture(GL_TEXTURE0); /* leaves unit 0 active, where code between draws binds the objects it makes */
     materials_bind(&self->materials, &self->textures, k, BLOCK_MATERIAL);
+    glUniform1f(program->surface_number, (float)(k % 255 + 1));
     glUniform1f(program->least_opacity, pass == PASS_SOLID ? SOLID_OPACITY : 0.0f); /* without effect at -1 */
     if (culled != GL_NONE) {
         draw_side(self, mesh, culled);
@@ -292,13 +307,47 @@ static WeftResult draw_meshes(WeftRaster *self, int first, int end, MeshPass pas
     return result;
 }
 
+/* Draws what is solid. */
+static WeftResult draw_solid(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
+    queue_sort(&self->queue, self->scene, seen);
+    return draw_meshes(self, 0, self->queue.count, PASS_SOLID, view, error);
+}
+
+/* Finds the light of the shading points, where these are fewer than pixels, and smooths the shadows of polygons. box: the
+ * pixels that are drawn. */
+static WeftResult draw_points(WeftRaster *self, const View *seen, const WeftRasterView *view, const int box[4],
+                              WeftError *error) {
+    Coarse *coarse = &self->coarse;
+    const int rate = view->shading_rate, more = COARSE_SIDE, left = box[0] / rate - more, low = box[1] / rate - more;
+    WeftResult result = coarse_begin(coarse, &self->programs.desc, view->width, view->height, rate, error);
+    if (result != WEFT_OK) return result;
+    frame_reset_state(self);
+    upload_view(self, seen, view, true);
+    bind_light(self, view);
+    glBindFramebuffer(GL_FRAMEBUFFER, coarse->drawn);
+    glViewport(0, 0, coarse->width, coarse->height);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(left, low, (box[0] + box[2]) / rate + more + 1 - left, (box[1] + box[3]) / rate + more + 1 - low);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    result = draw_solid(self, seen, view, error);
+    coarse_filter(coarse);
+    glDisable(GL_SCISSOR_TEST);
+    coarse_bind(coarse, UNIT_COARSE);
+    meshes_bind(&self->meshes);
+    return result;
+}
+
 /* Draws what is solid, the background, the floor and what blends into the framebuffer that is bound. Nothing blends in
- * a frame of a sum, where a random number decides partial opacity. */
-static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
+ * a frame of a sum, where a random number decides partial opacity. resolves: what is solid has the light of the shading
+ * points. */
+static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, bool resolves,
+                           WeftError *error) {
     const Queue *queue = &self->queue;
     bool behind = shows_environment(view) && self->environment_lit && self->environment.map;
-    queue_sort(&self->queue, self->scene, seen);
-    WeftResult result = draw_meshes(self, 0, queue->count, PASS_SOLID, view, error);
+    self->coarse.resolving = resolves;
+    WeftResult result = draw_solid(self, seen, view, error);
+    self->coarse.resolving = false;
     if (behind && result == WEFT_OK) result = draw_background(self, view->background == WEFT_BACKGROUND_BLURRED, error);
     if (self->summing && self->floor.there) bind_light(self, view);
     if (view->floor.on && self->floor.there && result == WEFT_OK) result = draw_floor(self, view, error);
@@ -337,9 +386,9 @@ static WeftResult draw_mirror(WeftRaster *self, const View *seen, const WeftRast
     alone.floor.on = 0;
     WeftResult result = ground_mirror(&self->ground, view->width, view->height, box, error);
     if (result != WEFT_OK) return result;
-    upload_view(self, &below, view);
+    upload_view(self, &below, view, false);
     bind_light(self, view);
-    result = draw_all(self, &below, &alone, error);
+    result = draw_all(self, &below, &alone, false, error);
     ground_mirrored(&self->ground); /* makes the mipmaps of the mirror image */
     frame_reset_state(self);        /* blended meshes have changed it */
     return result;
@@ -371,11 +420,12 @@ WeftResult frame_draw_passes(WeftRaster *self, const WeftRasterView *view, const
     /* OpenGL's rows run from the bottom */
     const int *c = view->crop, box[4] = {c[0], view->height - c[1] - c[3], c[2], c[3]};
     if (result == WEFT_OK) result = draw_mirror(self, seen, view, box, error);
+    if (result == WEFT_OK && is_coarse(view)) result = draw_points(self, seen, view, box, error);
     if (result == WEFT_OK) {
-        upload_view(self, seen, view);
+        upload_view(self, seen, view, false);
         begin_picture(self, view, box);
         bind_light(self, view);
-        result = draw_all(self, seen, view, error);
+        result = draw_all(self, seen, view, is_coarse(view), error);
         glDisable(GL_SCISSOR_TEST);
         target_resolve(&self->target, box);
     }
@@ -415,7 +465,7 @@ static WeftResult draw_strip(WeftRaster *self, const View *seen, int row, int ro
     frame_reset_state(self);
     if (row == 0) result = draw_mirror(self, seen, view, (const int[4]){c[0], bottom, c[2], c[3]}, error);
     if (result != WEFT_OK) return result;
-    upload_view(self, seen, view);
+    upload_view(self, seen, view, false);
     glViewport(0, 0, view->width, view->height);
     glBindFramebuffer(GL_FRAMEBUFFER, self->sums.frame.drawn);
     glEnable(GL_SCISSOR_TEST);
@@ -427,7 +477,7 @@ static WeftResult draw_strip(WeftRaster *self, const View *seen, int row, int ro
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     bind_rays(self);
     self->summing = true;
-    result = draw_all(self, seen, view, error);
+    result = draw_all(self, seen, view, false, error);
     self->summing = false;
     glDisable(GL_SCISSOR_TEST);
     return result;

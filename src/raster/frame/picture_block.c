@@ -63,10 +63,15 @@ static void put_light(const Light *light, uniform_vec4 to[4]) {
 }
 
 static void put_polygon(const LightPolygon *polygon, int k, Picture *out) {
-    const float normal[4] = {polygon->normal.x, polygon->normal.y, polygon->normal.z, 0.0f};
+    const float normal[4] = {polygon->normal.x, polygon->normal.y, polygon->normal.z, polygon->two_sided ? 1.0f : 0.0f};
     for (int j = 0; j < polygon->count; j++) {
         const float corner[4] = {polygon->corners[j].x, polygon->corners[j].y, polygon->corners[j].z, 0.0f};
         memcpy(out->polygon_corners[PICTURE_CORNERS * k + j], corner, sizeof corner);
+    }
+    for (int j = 0; j < POLYGON_POINTS; j++) {
+        const Vec3 p = shadow_point_on(polygon, j % 2 ? 0.75f : 0.25f, j / 2 ? 0.75f : 0.25f);
+        const float point[4] = {p.x, p.y, p.z, polygon->area / POLYGON_POINTS};
+        memcpy(out->polygon_points[POLYGON_POINTS * k + j], point, sizeof point);
     }
     memcpy(out->polygon_normals[k], normal, sizeof normal);
     memcpy(out->polygon_radiance[k], polygon->radiance, sizeof polygon->radiance);

@@ -16,7 +16,7 @@
 #include "raster/frame/shader_keys.h"
 #include "raster/gl/gl_check.h"
 
-enum { DEFAULT_WIDTH = 960, DEFAULT_HEIGHT = 720, DEFAULT_SAMPLES = 4, SIDE_MAX = 16384 };
+enum { DEFAULT_WIDTH = 960, DEFAULT_HEIGHT = 720, DEFAULT_SAMPLES = 4, SIDE_MAX = 16384, RATE_MAX = 8 };
 enum { FIRST_PIXELS = 20000 }; /* of the first strip of a sum */
 static const double strip_seconds = 0.04;
 
@@ -96,6 +96,7 @@ static void release(WeftRaster *self) {
     glDeleteProgram(self->background_program);
     target_destroy(&self->target);
     sums_destroy(&self->sums);
+    coarse_destroy(&self->coarse);
     ray_scene_destroy(&self->rays);
     sky_table_destroy(&self->sky);
     display_destroy(&self->display);
@@ -176,6 +177,8 @@ static WeftResult check_view(const WeftRasterView *view, WeftError *error) {
         return fail(error, WEFT_MESSAGE_DESC, "ambient", "%d", (int)view->ambient);
     if ((unsigned)view->background > WEFT_BACKGROUND_BLURRED) return fail(error, WEFT_MESSAGE_DESC, "background", NULL);
     if ((unsigned)view->part >= WEFT_PART_COUNT) return fail(error, WEFT_MESSAGE_DESC, "part", "%d", (int)view->part);
+    if (view->shading_rate < 1 || view->shading_rate > RATE_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, "shading rate", "%d; 1 to %d", view->shading_rate, RATE_MAX);
     const int *c = view->crop;
     if (c[0] < 0 || c[1] < 0 || c[2] < 1 || c[3] < 1 || c[2] > view->width - c[0] || c[3] > view->height - c[1])
         return fail(error, WEFT_MESSAGE_DESC, "crop", "%d,%d,%d,%d is not inside %d x %d", c[0], c[1], c[2], c[3],
@@ -187,6 +190,7 @@ static void set_defaults(const WeftScene *scene, WeftRasterView *view) {
     if (!view->width) view->width = DEFAULT_WIDTH;
     if (!view->height) view->height = DEFAULT_HEIGHT;
     if (!view->samples) view->samples = DEFAULT_SAMPLES;
+    if (!view->shading_rate) view->shading_rate = 1;
     if (!view->polygons) view->polygons = WEFT_RASTER_POLYGONS;
     if (view->polygons < 0) view->polygons = 0;
     if (!view->crop[0] && !view->crop[1] && !view->crop[2] && !view->crop[3])

@@ -2,6 +2,7 @@
  * targets */
 #pragma once
 
+#include "raster/frame/coarse.h"
 #include "raster/frame/sums.h"
 #include "raster/geometry/meshes.h"
 #include "raster/gl/context.h"
@@ -44,6 +45,7 @@ struct WeftRaster {
     RayScene rays;
     GlSky sky;
     Sums sums;
+    Coarse coarse;
     bool drawn;                /* the picture is that of drawn_view through drawn_from, and the scene is the same */
     WeftRasterView drawn_view; /* of the last picture, complete */
     View drawn_from;

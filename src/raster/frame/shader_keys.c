@@ -4,10 +4,12 @@
 #include "raster/frame/shader_keys.h"
 #include "raster/material/part.h"
 
-ShaderKey depth_key(const ShaderKey *key) {
+bool is_coarse(const WeftRasterView *view) { return view->shading_rate > 1 && !part_is_property((int)view->part); }
+
+/* Returns a key without any input but those of coverage. */
+static ShaderKey coverage_key(const ShaderKey *key) {
     ShaderKey depth;
     memset(&depth, 0, sizeof depth);
-    depth.depth = 1;
     depth.alpha_mode = key->alpha_mode;
     for (int k = 0; k < INPUT_COUNT; k++) depth.inputs[k].like = -1;
     for (int k = 0; k < INPUT_COUNT; k++) depth.inputs[k].state = INPUT_ZERO;
@@ -17,6 +19,19 @@ ShaderKey depth_key(const ShaderKey *key) {
     depth.inputs[INPUT_opacity] = key->inputs[INPUT_opacity];
     depth.inputs[INPUT_opacity].like = -1;
     return depth;
+}
+
+ShaderKey depth_key(const ShaderKey *key) {
+    ShaderKey depth = coverage_key(key);
+    depth.depth = 1;
+    return depth;
+}
+
+/* Returns the key of a material's pixels in a moving picture. */
+static ShaderKey resolve_key(const ShaderKey *key) {
+    ShaderKey resolve = coverage_key(key);
+    resolve.resolve = 1;
+    return resolve;
 }
 
 /* Sets the members of a key that describe lights and their shadow maps. */
@@ -52,6 +67,7 @@ ShaderKey floor_key(const WeftRaster *self, const WeftRasterView *view) {
 }
 
 ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMaterial *material) {
+    if (self->coarse.resolving) return resolve_key(&material->key);
     ShaderKey key = material->key;
     key.part = (int)view->part;
     if (part_is_property(key.part)) return key;
@@ -61,6 +77,7 @@ ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMa
         return key;
     }
     add_lights(self, view, &key);
+    key.coarse = is_coarse(view);
     if (key.ambient) material_in_light(material, self->environment.parts.env_light_kappa, &key);
     return key;
 }
@@ -74,6 +91,8 @@ bool all_keys(WeftRaster *self, const WeftRasterView *view, bool with_floor,
         ShaderKey key = lit_key(self, view, material), depth = depth_key(&material->key);
         all = test(&self->programs, &key);
         if (shadows) all = all && test(&self->programs, &depth);
+        const ShaderKey resolve = resolve_key(&material->key);
+        if (is_coarse(view) && !self->summing) all = all && test(&self->programs, &resolve);
     }
     const ShaderKey floor = floor_key(self, view);
     return all && (!with_floor || test(&self->programs, &floor));

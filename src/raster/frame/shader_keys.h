@@ -11,6 +11,9 @@ ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMa
 /* Returns the key of a material, whose own key is given, in a shadow map. */
 ShaderKey depth_key(const ShaderKey *key);
 
+/* Returns true if the shading points of a picture are fewer than its pixels. */
+bool is_coarse(const WeftRasterView *view);
+
 /* Returns the key of the floor. */
 ShaderKey floor_key(const WeftRaster *self, const WeftRasterView *view);
 

@@ -9,12 +9,22 @@ in highp vec4 vertex_tangent;
 #else
 const vec4 vertex_tangent = vec4(0.0, 0.0, 0.0, 1.0);
 #endif
+#ifdef COARSE
+layout(location = 0) out highp vec4 fragment;
+layout(location = 1) out highp vec4 fragment_polygons; /* what coarse_filter.glsl reads */
+layout(location = 2) out highp vec4 fragment_guide;
+uniform highp float surface_number;
+#else
 out highp vec4 fragment;
+#endif
 #ifdef BLENDED
 uniform highp float least_opacity; /* 0, or SOLID_OPACITY of passes.c where solid points alone are drawn */
 #endif
 
 #include "raster/glsl/light.glsl"
+#ifdef COARSE
+#include "raster/glsl/coarse_guide.glsl"
+#endif
 #include "raster/glsl/horizon.glsl"
 #include "raster/glsl/lifted.glsl"
 #include "shading/material/dust.h"
@@ -38,25 +48,30 @@ StackValue stack_seen_through(Stack m, StackView w, Slots only, Angles a) {
     return v;
 }
 
-/* Returns the light of punctual light k that the slots in `only` reflect or transmit. map: its shadow map, or -1. */
-Rgb light_from(int k, int kind, int map, Stack m, StackView w, Slots only, Facing at, Frame f) {
-    Beam beam = light_beam(k, kind);
+/* Returns the light of a beam that the slots in `only` reflect or transmit, without shadows. */
+Rgb beam_light(Beam beam, Stack m, StackView w, Slots only, Frame f) {
     Dir i = frame_to(f, beam.wi);
     float cosine = dir_dot(beam.wi, smooth_normal);
     bool behind = HAS_TRANSMITTED(m) && cosine < 0.0;
     float side = behind ? -1.0 : 1.0;
     i.z = side * i.z;
-    cosine = side * cosine;
-    bool lit = i.z > 0.0 && cosine > 0.0;
+    bool lit = i.z > 0.0 && side * cosine > 0.0;
     i.z = max(i.z, 1e-6); /* an unlit point is evaluated and then dropped: a branch costs more */
     Angles a = angles_between(w.o, i), coat = a;
     if (HAS_COAT(m)) coat = angles_between(w.coat_o, stack_to_coat(m, i));
     StackValue v = stack_value_of(m, w, only, a, coat);
     if (behind) v = stack_seen_through(m, w, only, a);
-    vec3 normal = side * vec_of_dir(smooth_normal);
-    float reaches = light_reaches(map, lifted(normal), normal, cosine);
-    Rgb sum = rgb_scale(rgb_mul(v.f_cos, beam.radiance), reaches);
+    Rgb sum = rgb_mul(v.f_cos, beam.radiance);
     return rgb(lit ? sum.r : 0.0, lit ? sum.g : 0.0, lit ? sum.b : 0.0);
+}
+
+/* Returns the light of punctual light k that the slots in `only` reflect or transmit. map: its shadow map, or -1. */
+Rgb light_from(int k, int kind, int map, Stack m, StackView w, Slots only, Facing at, Frame f) {
+    Beam beam = light_beam(k, kind);
+    float cosine = dir_dot(beam.wi, smooth_normal), side = HAS_TRANSMITTED(m) && cosine < 0.0 ? -1.0 : 1.0;
+    vec3 normal = side * vec_of_dir(smooth_normal);
+    float reaches = light_reaches(map, lifted(normal), normal, side * cosine);
+    return rgb_scale(beam_light(beam, m, w, only, f), reaches);
 }
 
 /* EACH_LIGHT(L) is L(k, kind, map) for each light. */
@@ -68,6 +83,12 @@ Rgb punctual_light(Stack m, StackView w, Slots only, Facing at, Frame f) {
 }
 
 const Slots SHOWN = Slots(SHOWS_DIFFUSE, SHOWS_SPECULAR, SHOWS_SHEEN, SHOWS_COAT, SHOWS_DUST);
+
+#ifdef COARSE
+/* The light of polygons in the pixel, as it is and without shadows, and the part of the pixel that the next counts for. */
+vec3 polygons_shadowed = vec3(0.0), polygons_open = vec3(0.0);
+float polygons_weight = 1.0;
+#endif
 
 #ifdef POLYGONS
 #include "raster/glsl/polygons.glsl"
@@ -156,6 +177,9 @@ vec4 pixel_light(Surface s, Facing at, Dir wo) {
     Slopes slopes = slopes_of(own);
     int points = slopes.along * slopes.across;
     vec4 sum = vec4(0.0);
+#ifdef COARSE
+    polygons_weight = 1.0 / float(points);
+#endif
     for (int k = 0; k < points; k++)
         sum += surface_light(slopes_surface(s, slopes, k), at, wo, slopes.rest, coat_more);
     return sum / float(points);
@@ -194,6 +218,10 @@ void main() {
 #endif
     }
     fragment = vec4(vec_of(sum) * opacity, opacity);
+#endif
+#ifdef COARSE
+    fragment_polygons = vec4(polygons_open, dot(polygons_shadowed, LUMINANCE)) * opacity;
+    fragment_guide = coarse_guide(vec_of_dir(at.normal), surface_number);
 #endif
     /* discard comes last, since derivatives of its neighbours need a fragment until here */
 #ifdef MASKED

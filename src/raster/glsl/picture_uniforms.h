@@ -8,6 +8,7 @@
 #define PICTURE_LIGHTS   64 /* most punctual lights of a picture */
 #define PICTURE_POLYGONS 8  /* WEFT_RASTER_POLYGONS */
 #define PICTURE_CORNERS  8  /* LIGHT_CORNERS of scene/light/polygons.h */
+#define POLYGON_POINTS   4  /* on a polygon, which stand for it in a moving picture */
 #define SHADOWS_MOST     4  /* shadow maps, of punctual lights and polygons together */
 #define SHADOW_POINTS    55 /* points on a polygon from which its shadow map looks */
 
@@ -29,6 +30,7 @@
     MANY(vec4, shadow_points, SHADOWS_MOST * SHADOW_POINTS)                                                   \
     MANY(vec4, lights, 4 * PICTURE_LIGHTS)                                                                   \
     MANY(vec4, polygon_corners, PICTURE_CORNERS * PICTURE_POLYGONS)                                           \
+    MANY(vec4, polygon_points, POLYGON_POINTS * PICTURE_POLYGONS) /* w: area that each stands for, m2 */        \
     MANY(vec4, polygon_normals, PICTURE_POLYGONS)                                                            \
     MANY(vec4, polygon_radiance, PICTURE_POLYGONS)                                                           \
     ONE(vec4, floor_place) /* middle and radius */                                                           \
@@ -39,5 +41,7 @@
     ONE(vec4, sky_parts)   /* factor on diffuse lobe and dust, on the other lobes */                         \
     ONE(vec4, ray_first)   /* number of nodes; first texel of triangles, normals, emitters */                   \
     ONE(vec4, ray_count)   /* number of emitters, number of the frame, first texel of masks */                  \
+    ONE(vec4, coarse)         /* x: side of the square of pixels that share the points of a soft shadow; y: pixels along
+                                 the side of one that light is found for (coarse_guide.glsl) */            \
     ONE(vec4, texture_levels) /* x: 1 if textures have smaller copies, 0 if the middle of a pixel is meant */
 /* clang-format on */

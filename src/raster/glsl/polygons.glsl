@@ -26,6 +26,31 @@ PolygonReach polygon_reach(bool transmits, Facing at) {
     return reach;
 }
 
+#ifdef COARSE
+/* Returns the light of all polygons: that of POLYGON_POINTS points on each, the same for all pixels. Adds it to that of the
+ * pixel. polygon_normals.w: 1 if both sides emit, else 0. */
+Rgb polygon_light(Stack m, StackView w, PolygonReach reach, Frame f) {
+    vec3 here = eye.xyz + from_eye;
+    Rgb sum = rgb_grey(0.0);
+    for (int k = 0; k < POLYGONS; k++) {
+        for (int j = 0; j < POLYGON_POINTS; j++) {
+            vec4 point = polygon_points[POLYGON_POINTS * k + j], normal = polygon_normals[k];
+            vec3 to = point.xyz - here;
+            float d2 = max(dot(to, to), point.w), r = inversesqrt(d2), cosine = -r * dot(normal.xyz, to);
+            vec3 c = polygon_radiance[k].rgb * (point.w / d2 * max(cosine, -cosine * normal.w));
+            Beam beam;
+            beam.wi = dir_of(r * to);
+            beam.radiance = rgb(c.r, c.g, c.b);
+            Rgb open = beam_light(beam, m, w, SHOWN, f);
+            Rgb light = rgb_scale(open, dir_dot(beam.wi, smooth_normal) > 0.0 ? reach.front[k] : reach.behind[k]);
+            polygons_open += polygons_weight * vec_of(open);
+            polygons_shadowed += polygons_weight * vec_of(light);
+            sum = rgb_add(sum, light);
+        }
+    }
+    return sum;
+}
+#else
 /* Returns the light of polygon k that a stack reflects and transmits. front, behind: fractions that reach either side
  * of the surface's plane, which cuts the polygon. */
 Rgb polygon_from(int k, int corners, float front, float behind, Stack m, StackView w, Frame f) {
@@ -50,3 +75,4 @@ Rgb polygon_light(Stack m, StackView w, PolygonReach reach, Frame f) {
         sum = rgb_add(sum, polygon_from(k, CORNERS_OF(k), reach.front[k], reach.behind[k], m, w, f));
     return sum;
 }
+#endif

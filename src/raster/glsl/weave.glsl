@@ -104,6 +104,9 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion, float 
     WovenSum sum = WovenSum(rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), far);
     for (int k = 0; k < points; k++) {
         float weight = (1.0 - far) / float(points);
+#ifdef COARSE
+        polygons_weight = weight;
+#endif
         vec2 lattice = pixel_point(k, points), from = pixel_shifted(lattice, points, random);
         vec2 spot = place + from.x * across + from.y * up;
         float spacing = f.longest * inversesqrt(float(points));
@@ -116,6 +119,9 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion, float 
     }
     for (int k = 0; k < systems; k++) {
         WeaveBase b = woven_far(c, k > 0, place, across, up, f, wear);
+#ifdef COARSE
+        polygons_weight = 0.5 * far;
+#endif
         Stack n = woven_stack(m, b);
         n.diffuse_prepared.woven = woven_afar(k > 0);
         woven_add(sum, n, w, b, 0.5 * far, reach, at, frame);
@@ -123,6 +129,10 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion, float 
     if (MATERIAL_HOLED) {
         float scale = 1.0 / max(sum.covered, 1e-3);
         sum.direct = rgb_scale(sum.direct, scale);
+#ifdef COARSE
+        polygons_open *= scale;
+        polygons_shadowed *= scale;
+#endif
         sum.around = rgb_scale(sum.around, scale);
         sum.single = rgb_scale(sum.single, scale);
         sum.multiple = rgb_scale(sum.multiple, scale);

@@ -142,10 +142,9 @@ static void choose_lights(const WeftScene *scene, int most, Box casters, Shadows
     }
 }
 
-/* Returns a point of a polygon for two numbers in [0, 1). They run along the sides of a parallelogram; else they choose
- * a triangle of the fan about the first corner and a point in it: Greg Turk, "Generating Random Points in Triangles",
- * Graphics Gems, 1990. */
-static Vec3 point_on(const LightPolygon *polygon, float u, float v) {
+/* Chooses a triangle of the fan about the first corner and a point in it: Greg Turk, "Generating Random Points in
+ * Triangles", Graphics Gems, 1990. */
+Vec3 shadow_point_on(const LightPolygon *polygon, float u, float v) {
     const Vec3 *corners = polygon->corners;
     Vec3 a = corners[0], across = vec3_sub(corners[1], a), up = vec3_sub(corners[polygon->count - 1], a);
     Vec3 fourth = vec3_add(vec3_add(a, across), up);
@@ -196,7 +195,7 @@ static Shadow of_polygon(const LightPolygon *polygon, Box casters) {
     Shadow self = {.points = SHADOW_POINTS, .meeting = faces && distance > 0.0f ? 1.0f / distance : 0.0f};
     for (int k = 0; k < self.points; k++) {
         const float n = SHADOW_POINTS, u = ((float)k + 0.5f) / n, v = ((float)(k * 34 % SHADOW_POINTS) + 0.5f) / n;
-        self.point[k] = along(vec3_sub(point_on(polygon, u, v), eye), right, up, forward);
+        self.point[k] = along(vec3_sub(shadow_point_on(polygon, u, v), eye), right, up, forward);
     }
     for (int k = 0; k < 8; k++) corners[k] = along(vec3_sub(box_corner(casters, k), eye), right, up, forward);
     float half = half_width(&self, corners);

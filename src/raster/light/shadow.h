@@ -43,6 +43,10 @@ void shadows_destroy(Shadows *shadows);
  * maps. */
 WeftResult shadows_update(Shadows *shadows, const WeftScene *scene, const LightPolygons *polygons, WeftError *error);
 
+/* Returns a point of a polygon for two numbers in [0, 1), which run along the sides of a parallelogram; even numbers give
+ * even points. */
+Vec3 shadow_point_on(const LightPolygon *polygon, float u, float v);
+
 /* Returns the shift of x and y in the map of a point of a polygon, over x and y of the point itself, 1/m. With it all
  * maps have the plane `meeting` at the same place. */
 float shadow_slope(const Shadow *shadow, int point);

@@ -26,7 +26,7 @@ static const TextureSampler samplers[] = {{"weft_tables", UNIT_TABLES},      {"e
                                           {"ray_texels", UNIT_RAYS},         {"sky_table", UNIT_SKY},
                                           {"ray_masks", UNIT_MASKS},         {"environment_map", UNIT_BACKGROUND},
                                           {"floor_sky", UNIT_FLOOR},         {"floor_mirror", UNIT_FLOOR + 1},
-                                          {"floor_depth", UNIT_FLOOR + 2}};
+                                          {"floor_depth", UNIT_FLOOR + 2},   {"coarse_light", UNIT_COARSE}};
 
 /* Sets the texture units of a program's samplers and counts these. Leaves the program in use, since the one in use
  * before may be the one it replaces, which is deleted. */
@@ -36,6 +36,7 @@ static void set_units(Program *self) {
     glUseProgram(self->name);
     self->samplers = 0;
     self->least_opacity = glGetUniformLocation(self->name, "least_opacity");
+    self->surface_number = glGetUniformLocation(self->name, "surface_number");
     if (maps >= 0) {
         GLuint index;
         GLint size = 0;

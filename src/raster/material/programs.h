@@ -20,6 +20,7 @@ enum {
     UNIT_CLOTH_CELLS,
     UNIT_CLOTH_COLORS,
     UNIT_COUNT,
+    UNIT_COARSE = UNIT_COUNT,     /* of a moving picture */
     UNIT_RAYS = UNIT_SOFT_SHADOW, /* of frames of a sum, which need neither shadow maps nor the filtered cube */
     UNIT_MASKS = UNIT_SHADOW,
     UNIT_SKY = UNIT_ENVIRONMENT
@@ -37,6 +38,7 @@ typedef struct Program {
     unsigned sheens_version; /* of the sheens' tables behind its own */
     int samplers;            /* array elements counted one by one */
     int least_opacity;       /* location of forward.glsl's uniform; -1 where the material does not blend */
+    int surface_number;      /* location of a uniform of forward.glsl and resolve.glsl, or -1 */
     bool stale;              /* true if the text may have changed */
     bool wanted;             /* and it is to be compiled */
     unsigned used;           /* tick of the picture that it was last drawn with */

@@ -335,8 +335,9 @@ static void define_weave(Text *text) {
     text_define(text, "weave_cell_texel(t, stride, row, at)", "weave_fetch_cell(row, at)");
 }
 
-/* Writes the shader of a shadow map: gaps between threads and coverage below a half let light through. */
-static void depth_text(const ShaderKey *key, Text *text) {
+/* Writes covered(): gaps between threads and coverage below a half let light through. Writes the shader of a shadow map,
+ * or of the pixels of a moving picture. */
+static void coverage_text(const ShaderKey *key, Text *text) {
     text_include(text, "shading/stack/surface.h");
     text_include(text, "shading/dialect/rgb.h");
     put_uniforms(text, key);
@@ -345,9 +346,14 @@ static void depth_text(const ShaderKey *key, Text *text) {
         define_weave(text);
         text_include(text, "raster/glsl/weave_cloth.glsl");
     }
-    text_line(text, "\nvoid main() {\n    if (coverage_of(material_surface().opacity) < 0.5) discard;");
-    if (key->woven) text_line(text, "    if (weave_is_gap()) discard;");
-    text_line(text, "}");
+    bool blended = key->resolve && key->alpha_mode == WEFT_ALPHA_BLEND;
+    if (blended) text_line(text, "uniform highp float least_opacity;");
+    text_line(text, "\nbool covered() { return coverage_of(material_surface().opacity) >= %s%s; }",
+              blended ? "least_opacity" : "0.5", key->woven ? " && !weave_is_gap()" : "");
+    if (key->resolve)
+        text_include(text, "raster/glsl/resolve.glsl");
+    else
+        text_line(text, "\nvoid main() {\n    if (!covered()) discard;\n}");
 }
 
 static void floor_text(const ShaderKey *key, Text *text) {
@@ -445,9 +451,9 @@ static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots
 
 void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *text) {
     text_begin(text, desc);
-    if (key->depth) depth_text(key, text);
+    if (key->depth || key->resolve) coverage_text(key, text);
     if (key->floor) floor_text(key, text);
-    if (key->depth || key->floor) return;
+    if (key->depth || key->resolve || key->floor) return;
     const CompositionSlots found = find_slots(key);
     if (key->shadowed) text_define(text, "SHADOWED", "1");
     if (needs_tangent(key, &found)) text_define(text, "NEEDS_TANGENT", "1");
@@ -455,6 +461,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
         text_define(text, "WOVEN", "1");
         define_weave(text);
     }
+    if (key->coarse) text_define(text, "COARSE", "1");
     part_text(key->part, text);
     put_lights(text, key);
     text_composition_lobes(text, &found, key->table_kind, key->table_tilts);

@@ -35,6 +35,8 @@ typedef struct ShaderKey {
     Choices choices;
     ShaderInput inputs[INPUT_COUNT];
     int depth;     /* 1: only coverage, for shadow maps */
+    int coarse;    /* 1: a shading point of a moving picture (glsl/coarse_guide.glsl) */
+    int resolve;   /* 1: coverage, and light of a moving picture's shading points (glsl/resolve.glsl) */
     int floor;     /* 1: no material, but the floor under the scene */
     int reference; /* 1: a frame of a sum (glsl/reference.glsl); 2: with two factors on light of the environment */
     int shadowed;  /* 1: with shadow maps */

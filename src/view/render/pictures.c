@@ -179,10 +179,8 @@ static Effort effort_of(const Renderer *self, const FrameRequest *request) {
 
 static FrameRequest with_effort(const Renderer *self, const FrameRequest *request, Effort effort) {
     FrameRequest drawn = *request; /* a shallow copy */
-    int by = effort == EFFORT_COARSE ? self->coarse : 1;
     if (effort < EFFORT_SMOOTH) drawn.view.samples = 1;
-    drawn.view.width = request->view.width / by > 16 ? request->view.width / by : 16;
-    drawn.view.height = request->view.height / by > 16 ? request->view.height / by : 16;
+    if (effort == EFFORT_COARSE) drawn.view.shading_rate = self->coarse;
     return drawn;
 }
 

@@ -19,8 +19,8 @@ typedef struct Renderer Renderer;
 /* The arrangement of two states in one picture. */
 typedef enum Split { SPLIT_NONE, SPLIT_LINE, SPLIT_SIDES } Split;
 
-/* The quality of a picture. coarse: while the mouse moves, fewer pixels if a full picture would be slow;
- * whole: all pixels; smooth: antialiased edges too. */
+/* The quality of a picture. coarse: while the mouse moves, fewer points of shading if a full picture would be slow;
+ * whole: one a pixel; smooth: antialiased edges too. */
 typedef enum Effort { EFFORT_COARSE, EFFORT_WHOLE, EFFORT_SMOOTH } Effort;
 
 /* A request for a picture. It holds only values that change the picture. */
@@ -118,7 +118,7 @@ typedef struct RenderedFrame {
     unsigned scene;               /* number of the scene that is shown */
     unsigned number;              /* number of the request that is shown (renderer_request) */
     bool focused;                 /* `target` is the surface point in the middle of the picture */
-    Effort effort;                /* quality; a coarse picture has a smaller texture, which is stretched */
+    Effort effort;                /* quality */
     int summed, sum_frames;       /* frames of a sum that the picture has, and will have; 0: it is not one */
     float seconds;                /* s, for this picture */
     float whole_seconds;          /* s, for a picture with all pixels */

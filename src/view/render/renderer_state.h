@@ -52,7 +52,7 @@ struct Renderer {
     Folders folders;       /* folders of maps in use, and watched */
     int surveyed;          /* variant whose coverage by materials the window has (TASK_SURVEY) */
     FileWatch *file_watch; /* watches the files of textures, and these folders */
-    int coarse;            /* side of the block of pixels that a coarse picture draws as one */
+    int coarse;            /* shading rate of a coarse picture */
     double coarse_seconds, whole_seconds, smooth_seconds; /* s, that a picture of each effort took */
     bool smooth_timed;                                    /* smooth_seconds was measured, not estimated */
     bool surprised;                         /* the last picture took so long that its time was not counted */
