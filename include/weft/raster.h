@@ -21,7 +21,7 @@
  * transform feedback or conditional rendering may be active. Errors pending in the driver when a call begins are
  * dropped. Several rasters may share a context.
  *
- * DOES NOT: indirect light between surfaces, refraction, layer rule "stochastic" (drawn without its bounces). */
+ * DOES NOT: indirect light between surfaces, but for one bounce in sums of frames; refraction, layer rule "stochastic" (drawn without its bounces). */
 #ifndef WEFT_RASTER_H
 #define WEFT_RASTER_H
 
@@ -108,6 +108,7 @@ typedef struct WeftRasterView {
     int plain_textures; /* not 0: textures as the path tracer reads them, without smaller copies */
     WeftFloor floor;    /* only with part all */
     int hide_lights;    /* not 0: polygon lights emit, but the camera looks through them */
+    int bounces;        /* 1: in a sum of frames light bounces once between surfaces; 0: not at all */
     /* Pixels along the side of a square that share a point of shading, for a picture in motion; up to 8. Outlines keep all
      * their pixels: the light of a pixel is that of the points around it on its own surface. Points of a polygon's soft
      * shadow are shared by neighbours too. 0 or 1: each pixel has a point. A part that is no light has all its points. */
@@ -124,7 +125,9 @@ enum { WEFT_RASTER_FRAMES_MOST = 1 << 20 };
 
 /* Begins a picture that is the mean of so many frames. Each frame has random samples of the light, with shadow rays
  * that a shader traces, and is moved by a fraction of a pixel: the mean converges to the path tracer's direct light
- * (max_depth 1), for every lobe and light, with smooth edges. Of the view, `ambient`, `polygons`, `no_shadows` and
+ * (max_depth 1), for every lobe and light, with smooth edges. With bounces 1 a surface is also lit by what others send
+ * back of their direct light, evenly to all sides, with the colour of a triangle on the mean: about the path tracer's
+ * max_depth 2, and exactly so where what is met is matt. Of the view, `ambient`, `polygons`, `no_shadows` and
  * `samples` count only for a floor. If the last picture was drawn with the same view, it counts as a few frames at
  * first. Compiles the shaders that it needs. Fails as weft_raster_draw does, with WEFT_MESSAGE_GL_MEMORY also where the
  * scene has more than about two million triangles.

@@ -139,6 +139,11 @@ static void engine_options_without_sense_are_refused(void **state) {
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--ambient=dark"), "--ambient");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--accumulate=8"), "--accumulate: needs --engine raster");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=raster", "--accumulate=0"), "--accumulate");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=raster", "--bounces=1"), "add --accumulate 256");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=raster", "--accumulate=8", "--bounces=2"),
+            "--bounces");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=raster", "--accumulate=8", "--bounces=some"),
+            "--bounces");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=both", "--layer", "additive,seed"), "both");
     refuses(LIST("render", "builtin:spheres", "-o", "x.exr", "--engine=both"), "sheet");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=both", "--turntable=3"), "--turntable");

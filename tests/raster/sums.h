@@ -1,4 +1,4 @@
-/* sums.h - sums of frames of the rasteriser, and how far they are from the path tracer's direct light */
+/* sums.h - sums of frames of the rasteriser, and how far they are from the path tracer's light of as many bounces */
 #ifndef WEFT_TEST_RASTER_SUMS_H
 #define WEFT_TEST_RASTER_SUMS_H
 
@@ -57,8 +57,11 @@ static inline WeftRaster *raster_of(const WeftScene *scene) {
 static inline void agrees(WeftScene *scene, const WeftRasterView *how, int frames, int spp, const char *what,
                           double pixels, double blocks) {
     WeftRaster *raster = raster_of(scene);
-    const WeftRenderDesc desc = {
-        .width = WIDTH, .height = HEIGHT, .max_depth = 1, .camera = how->camera, .background = how->background};
+    const WeftRenderDesc desc = {.width = WIDTH,
+                                 .height = HEIGHT,
+                                 .max_depth = 1 + how->bounces,
+                                 .camera = how->camera,
+                                 .background = how->background};
     WeftImage image = summed(raster, how, frames), reference = test_render(scene, desc, spp);
     const Off off = compare(&image, &reference);
     print_message("%-24s pixels %.2f %%, means of 8 x 8 %.2f %%, mean %+.2f %%\n", what, 100.0 * off.pixels,

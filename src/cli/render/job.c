@@ -150,6 +150,7 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
                            .part = job->request->part,
                            .floor = floor_of(job),
                            .hide_lights = desc->hide_lights,
+                           .bounces = job->request->bounces,
                            .background = desc->background};
     memcpy(view.crop, desc->crop, sizeof view.crop);
     WeftResult result = WEFT_OK;

@@ -57,6 +57,8 @@ const Option request_options[] = {
     OPTION_WHOLE("--accumulate", "COUNT", NULL, 1, WEFT_RASTER_FRAMES_MOST,
                  "raster: the mean of so many frames with random light and shadow rays, which converges to the path "
                  "tracer's --max-depth 1"),
+    OPTION_WHOLE("--bounces", "COUNT", "0", 0, 1,
+                 "raster, with --accumulate: 1 lets light bounce once between surfaces, about as --max-depth 2"),
     OPTION_TEXT("--ambient", "STRATEGY", "best",
                 "raster: light from the environment by irradiance, mirror or fitted, by the best of them for each "
                 "lobe, or none"),
@@ -131,6 +133,7 @@ static bool read_engine(const Options *options, Request *request) {
                 option_choice(options, "--ambient", ambients, &ambient) &&
                 option_choice(options, "--part", parts, &part) && option_integer(options, "--msaa", &request->msaa) &&
                 option_integer(options, "--accumulate", &request->accumulate) &&
+                option_integer(options, "--bounces", &request->bounces) &&
                 option_integer(options, "--polygons", &request->polygons) &&
                 option_integer(options, "--occlusion", &occlusion) &&
                 option_integer(options, "--turntable", &request->turntable);
@@ -143,6 +146,11 @@ static bool read_engine(const Options *options, Request *request) {
                                        .occlusion = request->accumulate ? 0 : occlusion};
     if (good && request->accumulate && request->engine == ENGINE_TRACE) {
         report(WEFT_USAGE, "--accumulate: needs --engine raster or both; the path tracer has --spp");
+        return false;
+    }
+    if (good && request->bounces && !request->accumulate) {
+        report(WEFT_USAGE,
+               "--bounces: light bounces only in the sums of frames of --engine raster: add --accumulate 256");
         return false;
     }
     if (good && part && request->engine != ENGINE_RASTER) {

@@ -27,6 +27,7 @@ typedef struct Request {
     WeftRasterDesc raster;
     int msaa, polygons;
     int accumulate; /* frames of a sum; 0: one picture */
+    int bounces;    /* of light in them */
     WeftAmbient ambient;
     WeftPart part;
     int turntable;                /* pictures around the scene; 0: one */

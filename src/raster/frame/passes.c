@@ -443,7 +443,8 @@ WeftResult frame_begin_sum(WeftRaster *self, const View *seen, WeftError *error)
     self->summing = true;
     if (result == WEFT_OK) result = compile_shaders(self, view, error);
     self->summing = false;
-    if (result == WEFT_OK) result = ray_scene_make(&self->rays, self->scene, error);
+    if (result == WEFT_OK)
+        result = ray_scene_make(&self->rays, self->scene, view->bounces ? self->materials.sheens : NULL, error);
     if (result == WEFT_OK && self->environment_lit)
         result = sky_table_make(&self->sky, &self->scene->environment, error);
     if (result == WEFT_OK)

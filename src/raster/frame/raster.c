@@ -176,6 +176,8 @@ static WeftResult check_view(const WeftRasterView *view, WeftError *error) {
     if ((unsigned)view->ambient > WEFT_AMBIENT_NONE)
         return fail(error, WEFT_MESSAGE_DESC, "ambient", "%d", (int)view->ambient);
     if ((unsigned)view->background > WEFT_BACKGROUND_BLURRED) return fail(error, WEFT_MESSAGE_DESC, "background", NULL);
+    if (view->bounces < 0 || view->bounces > 1)
+        return fail(error, WEFT_MESSAGE_DESC, "bounces", "%d; 0 or 1", view->bounces);
     if ((unsigned)view->part >= WEFT_PART_COUNT) return fail(error, WEFT_MESSAGE_DESC, "part", "%d", (int)view->part);
     if (view->shading_rate < 1 || view->shading_rate > RATE_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "shading rate", "%d; 1 to %d", view->shading_rate, RATE_MAX);

@@ -74,6 +74,7 @@ ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMa
     if (self->summing) {
         const Environment *e = &self->scene->environment;
         key.reference = e->ambient < e->reflection || e->ambient > e->reflection ? 2 : 1;
+        key.bounces = view->bounces;
         return key;
     }
     add_lights(self, view, &key);

@@ -2,7 +2,7 @@
  * of the material, with shadow rays, as the path tracer's first vertex has it (trace/path/shade.c, lit.c)
  *
  * The mean of frames with other random numbers, each moved by a fraction of a pixel, is the path tracer's picture at
- * depth 1. The text before it is that of forward.glsl. */
+ * depth 1. With BOUNCES the ray that the material draws brings back what it meets reflects of its own direct light. The text before it is that of forward.glsl. */
 in highp vec3 from_eye;
 in highp vec3 vertex_normal;
 #ifdef NEEDS_TANGENT
@@ -162,14 +162,17 @@ int kind_from(int kind) {
     return k;
 }
 
-/* Returns the light along a ray that the material drew with density pdf, weighted against the draw of the same light. Eric Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997,
- * power heuristic, Equation 9.13. */
-vec3 light_met(Ray r, RayHit hit, float pdf) {
-    float other = 0.0;
-    vec3 radiance = vec3(0.0);
+/* Light that a ray has met, and the density with which a sample of that light has its direction. */
+struct LightMet {
+    vec3 radiance;
+    float pdf;
+};
+
+LightMet light_at(Ray r, RayHit hit) {
+    LightMet met = LightMet(vec3(0.0), 0.0);
     if (hit.triangle < 0 && sky_place.w > 0.5) {
-        radiance = sky_radiance(r.direction);
-        other = sky_pdf(r.direction);
+        met.radiance = sky_radiance(r.direction);
+        met.pdf = sky_pdf(r.direction);
     }
     RayTriangle t = ray_triangle(max(hit.triangle, 0));
     if (hit.triangle >= 0 && t.emitter > 0.5) {
@@ -178,10 +181,17 @@ vec3 light_met(Ray r, RayHit hit, float pdf) {
         vec3 normal = cross(t.b - t.a, t.c - t.a);
         float cosine = -dot(normal, r.direction) * inversesqrt(max(dot(normal, normal), 1e-38));
         bool lit = cosine > 0.0 || emitter_texel(emitter, 1).w > 0.5;
-        radiance = lit ? light.rgb : vec3(0.0);
-        other = emitter_pdf(light.w, emitter_texel(emitter, 2).w, hit.t, cosine);
+        met.radiance = lit ? light.rgb : vec3(0.0);
+        met.pdf = emitter_pdf(light.w, emitter_texel(emitter, 2).w, hit.t, cosine);
     }
-    return radiance * (pdf / (pdf + other * (other / pdf)));
+    return met;
+}
+
+/* Returns the light along a ray that the material drew with density pdf, weighted against the draw of the same light.
+ * Eric Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, power heuristic, Equation 9.13. */
+vec3 light_met(Ray r, RayHit hit, float pdf) {
+    LightMet met = light_at(r, hit);
+    return met.radiance * (pdf / (pdf + met.pdf * (met.pdf / pdf)));
 }
 
 /* Returns the ray of a sample, from aside of the lifted point that was lit to just before the light. */
@@ -193,11 +203,20 @@ Ray ray_towards(Place place, vec3 wi, float distance, bool below) {
     return Ray(from, to / far, 0.0, far * 0.9999);
 }
 
+#ifdef BOUNCES
+#include "raster/glsl/bounce.glsl"
+#endif
+
 /* Returns the direct light that a stack sends to the eye: a sum over the kinds of samples, in one loop so that the
  * stack is in the text once. */
 vec3 direct_light(Stack m, StackView w, Frame f, Place place) {
     uint key = pixel_key(), index = frame_index(), ray_key = point_hash(key ^ index);
     vec3 sum = vec3(0.0);
+#ifdef BOUNCES
+    vec3 through = vec3(0.0);
+    Ray last = Ray(place.origin, place.horizon, 0.0, -1.0);
+    RayHit met = RayHit(0.0, -1, 0.0, 0.0);
+#endif
     for (int kind = kind_from(0); kind < KINDS; kind = kind_from(kind + 1)) {
         Point at = sampler_point(key, index, PAIR_VERTEX + uint(kind));
         Arriving light = Arriving(vec3(0.0), vec3(0.0), 1.0, FAR);
@@ -226,7 +245,15 @@ vec3 direct_light(Stack m, StackView w, Frame f, Place place) {
         bool arrives = live && (kind == BY_LOBE || hit.triangle < 0);
         vec3 added = (from_sky ? of_sky : of_lights) * light.radiance * weight;
         sum += arrives ? added : vec3(0.0);
+#ifdef BOUNCES
+        through = live ? of_lights * weight : vec3(0.0); /* of the last kind, the material's own */
+        last = r;
+        met = hit;
+#endif
     }
+#ifdef BOUNCES
+    sum += through * bounced(last, met, key, index);
+#endif
     return sum;
 }
 

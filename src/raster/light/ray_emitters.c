@@ -3,6 +3,7 @@
 #include "raster/light/ray_emitters.h"
 
 #include "base/memory.h"
+#include "raster/light/triangle_points.h"
 #include "scene/light/polygons.h"
 #include "scene/record/material_at.h"
 
@@ -38,10 +39,8 @@ static void find_radiance(const WeftScene *scene, const Mesh *mesh, RayEmitter *
     const int steps = even ? 1 : STEPS;
     const uint32_t *index = mesh->index + 3 * (size_t)emitter->triangle;
     for (int k = 0; k < steps * steps; k++) {
-        const int row = (int)sqrtf((float)k), in_row = k - row * row, up = in_row % 2, pair = in_row / 2;
-        const float n = 3.0f * (float)steps;
-        const float b1 = (float)(3 * row + (up ? 1 : 2)) / n, b2 = (float)(3 * pair + (up ? 2 : 1)) / n;
-        const float weight[3] = {1.0f - b1, b1 - b2, b2};
+        float weight[3];
+        triangle_point(k, steps, weight);
         add_emission(scene, mesh, index, weight, emitter->radiance);
     }
     for (int c = 0; c < 3; c++) emitter->radiance[c] /= (float)(steps * steps);

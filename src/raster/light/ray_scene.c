@@ -1,12 +1,14 @@
+#include <stdlib.h> /* before the dialect, whose abs() shadows its own */
+
 #include "raster/light/ray_scene.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
 #include "raster/gl/gl_check.h"
+#include "raster/light/ray_albedos.h"
 
 enum { NODES, TRIANGLES, NORMALS, EMITTERS, MASKS, KINDS };
 
@@ -44,14 +46,19 @@ static bool make_tree(RayScene *self, const WeftScene *scene) {
 
 static void put(float *texel, Vec3 v, float w) { texel[0] = v.x, texel[1] = v.y, texel[2] = v.z, texel[3] = w; }
 
-static void put_triangle(const WeftScene *scene, TrianglePlace at, float *triangle, float *normals) {
+/* albedos: NULL where nothing bounces. */
+static void put_triangle(const WeftScene *scene, const RayAlbedo *albedos, TrianglePlace at, float *triangle,
+                         float *normals) {
     const Mesh *mesh = &scene->meshes[at.mesh];
     const float side = scene->materials[mesh->material].double_sided ? 0.0f : 4.0f;
     const float last[3] = {side + ray_masks_mean(scene, mesh, at.triangle), 0.0f, 0.0f};
+    float albedo[3] = {0.0f, 0.0f, 0.0f};
+    if (albedos) ray_albedos_triangle(albedos, scene, mesh, at.triangle, albedo);
     for (int k = 0; k < 3; k++) {
         put(triangle + 4 * k, corner_of(mesh, at.triangle, k), last[k]);
         const uint32_t vertex = mesh->index[3 * (size_t)at.triangle + (size_t)k];
-        if (mesh->normal) put(normals + 4 * k, vec3_load(mesh->normal + 3 * (size_t)vertex), 0.0f);
+        const Vec3 none = {0.0f, 0.0f, 0.0f};
+        put(normals + 4 * k, mesh->normal ? vec3_load(mesh->normal + 3 * (size_t)vertex) : none, albedo[k]);
     }
 }
 
@@ -97,23 +104,26 @@ static size_t count_masks(const RayScene *self, const WeftScene *scene) {
 }
 
 /* Fills the texels. Returns false if memory is short. */
-static bool fill(const RayScene *self, const WeftScene *scene, const RayEmitters *emitters, float *texels) {
+static bool fill(const RayScene *self, const WeftScene *scene, const SheenTables *sheens, const RayEmitters *emitters,
+                 float *texels) {
     const RayTree *tree = &self->tree;
+    RayAlbedo *albedos = sheens ? ray_albedos_make(scene, sheens) : NULL;
     TrianglePlace *places = find_places(scene, tree->count);
     uint32_t *at = alloc_array(tree->count, sizeof *at);
-    const bool made = places && at;
+    const bool made = places && at && (albedos || !sheens);
     size_t masks = 0;
     memcpy(texels, tree->nodes, tree->node_count * sizeof *tree->nodes);
     for (uint32_t k = 0; made && k < tree->count; k++) {
         const TrianglePlace place = places[tree->order[k]];
         float *triangle = texels + 4 * ((size_t)self->first[TRIANGLES] + 3 * (size_t)k);
         at[tree->order[k]] = k;
-        put_triangle(scene, place, triangle, texels + 4 * ((size_t)self->first[NORMALS] + 3 * (size_t)k));
+        put_triangle(scene, albedos, place, triangle, texels + 4 * ((size_t)self->first[NORMALS] + 3 * (size_t)k));
         if (ray_masks_triangle(&self->masks, scene, &scene->meshes[place.mesh], place.triangle,
                                texels + 4 * ((size_t)self->first[MASKS] + 3 * masks)))
             triangle[11] = (float)++masks;
     }
     const bool lit = made && put_emitters(self, scene, emitters, at, texels);
+    free(albedos);
     free(places);
     free(at);
     return lit;
@@ -133,7 +143,7 @@ static WeftResult upload(RayScene *self, int rows, const float *texels, WeftErro
     return gl_check(error, "triangles for rays");
 }
 
-static WeftResult fill_texture(RayScene *self, const WeftScene *scene, WeftError *error) {
+static WeftResult fill_texture(RayScene *self, const WeftScene *scene, const SheenTables *sheens, WeftError *error) {
     RayEmitters emitters;
     GLint most = 0;
     if (!ray_emitters_find(&emitters, scene)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
@@ -151,16 +161,18 @@ static WeftResult fill_texture(RayScene *self, const WeftScene *scene, WeftError
     if (texels > RAY_NUMBER_MOST || rows > (size_t)most)
         result = fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name, "too many triangles to trace rays in a shader");
     float *all = result == WEFT_OK ? alloc_array(rows * RAY_ROW, 4 * sizeof *all) : NULL;
-    if (result == WEFT_OK && (!all || !fill(self, scene, &emitters, all)))
+    if (result == WEFT_OK && (!all || !fill(self, scene, sheens, &emitters, all)))
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK) result = upload(self, (int)rows, all, error);
     free(all);
     ray_emitters_free(&emitters);
     self->filled = result == WEFT_OK;
+    self->bounces = sheens != NULL;
     return result;
 }
 
-WeftResult ray_scene_make(RayScene *self, const WeftScene *scene, WeftError *error) {
+WeftResult ray_scene_make(RayScene *self, const WeftScene *scene, const SheenTables *sheens, WeftError *error) {
+    self->filled = self->filled && (self->bounces || !sheens);
     const bool stale = !self->tree.nodes || self->shape_version != scene->shape_version;
     if (count_triangles(scene) >= RAY_NUMBER_MOST / 2)
         return fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name, "too many triangles to trace rays in a shader");
@@ -169,7 +181,7 @@ WeftResult ray_scene_make(RayScene *self, const WeftScene *scene, WeftError *err
         if (result != WEFT_OK) return result;
     }
     if (stale && !make_tree(self, scene)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    return stale || !self->filled ? fill_texture(self, scene, error) : WEFT_OK;
+    return stale || !self->filled ? fill_texture(self, scene, sheens, error) : WEFT_OK;
 }
 
 void ray_scene_destroy(RayScene *self) {

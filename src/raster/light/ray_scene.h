@@ -5,7 +5,8 @@
  *   nodes      two texels each: low, skip; high, first (ray_tree.h)
  *   triangles  three each, in the order of the tree: corner a and its surface; b and 1 + its emitter, or 0; c and 1 + its
  *              mask, or 0
- *   normals    three each: at the corners, 0 if the mesh has none
+ *   normals    three each: at the corners, 0 if the mesh has none; and for a bounce red, green and blue of what it sends
+ *              back (ray_albedos.h)
  *   emitters      four each: a, until; ab, 1 if both sides emit; ac, area; radiance, probability (emitters.h)
  *   masks      three each: the numbers of ray_masks.h
  *
@@ -18,6 +19,7 @@
 #include "raster/geometry/ray_tree.h"
 #include "raster/light/ray_emitters.h"
 #include "raster/light/ray_masks.h"
+#include "scene/light/sheen_tables.h"
 
 enum { RAY_ROW = 2048 };
 
@@ -25,6 +27,7 @@ typedef struct RayScene {
     RayTree tree;
     unsigned shape_version; /* of the tree, as in WeftScene */
     bool filled;            /* the texture has the scene as it is; set it to false when materials change */
+    bool bounces;           /* it has what triangles send back */
     unsigned texture;       /* 0: none */
     int rows;               /* of the texture */
     int first[5];           /* texel of the first node, triangle, normal, emitter and mask */
@@ -32,8 +35,8 @@ typedef struct RayScene {
     RayMasks masks;
 } RayScene;
 
-/* Makes what is missing. Fails with WEFT_MESSAGE_MEMORY, or _GL_MEMORY if the scene is too large for a texture. */
-WeftResult ray_scene_make(RayScene *self, const WeftScene *scene, WeftError *error);
+/* Makes what is missing. sheens: of the scene, NULL where nothing is to bounce. Fails with WEFT_MESSAGE_MEMORY, or _GL_MEMORY if the scene is too large for a texture. */
+WeftResult ray_scene_make(RayScene *self, const WeftScene *scene, const SheenTables *sheens, WeftError *error);
 void ray_scene_destroy(RayScene *self);
 
 /* Binds the triangles and the maps of opacity. */
