@@ -34,9 +34,9 @@ WEFT_API WeftResult weft_scene_save_mtlx(const WeftScene *scene, int index, cons
 
 /* A draft and its yarns, by which a U3M tells the construction and composition of a cloth. */
 typedef struct WeftTextile {
-    const WeftDraft *draft;
-    const char *yarns[2]; /* of warp and weft, by the names of weft_yarn_name */
-    double metres;        /* that a unit of texture coordinates spans; 0: as the mesh has it */
+    const WeftDraft *draft; /* borrowed */
+    const char *yarns[2];   /* of warp and weft, by the names of weft_yarn_name */
+    double metres;          /* width of a unit of texture coordinates; 0: as the mesh has it */
 } WeftTextile;
 
 /* Writes material index in the textile industry's format U3M (Vizoo and Browzwear, schema 1.1; docs/u3m.md): a .u3m with

@@ -280,32 +280,6 @@ class WeftChartEntry(Structure):
     ]
 
 
-class WeftDiffDesc(Structure):
-    _fields_ = [
-        ("image", POINTER(WeftImage)),
-        ("reference", POINTER(WeftImage)),
-        ("metric", c_int),
-        ("pixels_per_degree", c_float),
-        ("tonemap", c_int),
-        ("exposure", c_float),
-        ("exposed", c_int),
-        ("threads", c_int),
-    ]
-
-
-class WeftDiff(Structure):
-    _fields_ = [
-        ("value", c_double),
-        ("worst", c_float),
-        ("worst_x", c_int),
-        ("worst_y", c_int),
-        ("high", c_float),
-        ("exposures", c_int),
-        ("exposure_low", c_float),
-        ("exposure_high", c_float),
-    ]
-
-
 class WeftMoment(Structure):
     _fields_ = [
         ("animation", c_char_p),
@@ -348,31 +322,6 @@ class WeftCamera(Structure):
         ("target", (c_float * 3)),
         ("up", (c_float * 3)),
         ("fov", c_float),
-    ]
-
-
-class WeftFinding(Structure):
-    _fields_ = [
-        ("kind", c_int),
-        ("severity", c_int),
-        ("of", c_int),
-        ("index", c_int),
-        ("subject", (c_char * 96)),
-        ("engines", c_uint),
-        ("words", (c_char * 400)),
-        ("fix", (c_char * 280)),
-        ("fixable", c_int),
-        ("figure", c_double),
-        ("place", (c_char * 160)),
-    ]
-
-
-class WeftDoctorInfo(Structure):
-    _fields_ = [
-        ("material_count", c_int),
-        ("mesh_count", c_int),
-        ("image_count", c_int),
-        ("sheen_count", c_int),
     ]
 
 
@@ -483,40 +432,6 @@ class WeftMaterial(Structure):
     ]
 
 
-class WeftExportDesc(Structure):
-    _fields_ = [
-        ("lobe", POINTER(WeftLobe)),
-        ("right", POINTER(WeftLobe)),
-        ("profile", c_char_p),
-        ("material", POINTER(WeftMaterial)),
-        ("name", c_char_p),
-        ("target", c_int),
-        ("lut", c_int),
-        ("albedo", c_int),
-        ("fold_pi", c_int),
-        ("prefix", c_char_p),
-        ("call", c_char_p),
-    ]
-
-
-class WeftExportTable(Structure):
-    _fields_ = [
-        ("name", (c_char * 96)),
-        ("texels", WeftImage),
-        ("scale", c_float),
-        ("offset", c_float),
-    ]
-
-
-class WeftExport(Structure):
-    _fields_ = [
-        ("text", c_void_p),
-        ("size", c_size_t),
-        ("tables", (WeftExportTable * 32)),
-        ("table_count", c_int),
-    ]
-
-
 class WeftBsdfDesc(Structure):
     _fields_ = [
         ("thetas", c_int),
@@ -561,6 +476,116 @@ class WeftAssetMatch(Structure):
     ]
 
 
+class WeftTarget(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("help", c_char_p),
+        ("profile", c_char_p),
+    ]
+
+
+class WeftDelivered(Structure):
+    _fields_ = [
+        ("name", (c_char * 64)),
+        ("found", WeftMatch),
+        ("even_sky", c_double),
+    ]
+
+
+class WeftDelivery(Structure):
+    _fields_ = [
+        ("materials", POINTER(WeftDelivered)),
+        ("material_count", c_int),
+        ("extensions", c_void_p),
+        ("lost", c_void_p),
+    ]
+
+
+class WeftDiffDesc(Structure):
+    _fields_ = [
+        ("image", POINTER(WeftImage)),
+        ("reference", POINTER(WeftImage)),
+        ("metric", c_int),
+        ("pixels_per_degree", c_float),
+        ("tonemap", c_int),
+        ("exposure", c_float),
+        ("exposed", c_int),
+        ("threads", c_int),
+    ]
+
+
+class WeftDiff(Structure):
+    _fields_ = [
+        ("value", c_double),
+        ("worst", c_float),
+        ("worst_x", c_int),
+        ("worst_y", c_int),
+        ("high", c_float),
+        ("exposures", c_int),
+        ("exposure_low", c_float),
+        ("exposure_high", c_float),
+    ]
+
+
+class WeftFinding(Structure):
+    _fields_ = [
+        ("kind", c_int),
+        ("severity", c_int),
+        ("of", c_int),
+        ("index", c_int),
+        ("subject", (c_char * 96)),
+        ("engines", c_uint),
+        ("words", (c_char * 400)),
+        ("fix", (c_char * 280)),
+        ("fixable", c_int),
+        ("figure", c_double),
+        ("place", (c_char * 160)),
+    ]
+
+
+class WeftDoctorInfo(Structure):
+    _fields_ = [
+        ("material_count", c_int),
+        ("mesh_count", c_int),
+        ("image_count", c_int),
+        ("sheen_count", c_int),
+    ]
+
+
+class WeftExportDesc(Structure):
+    _fields_ = [
+        ("lobe", POINTER(WeftLobe)),
+        ("right", POINTER(WeftLobe)),
+        ("profile", c_char_p),
+        ("material", POINTER(WeftMaterial)),
+        ("name", c_char_p),
+        ("target", c_int),
+        ("lut", c_int),
+        ("albedo", c_int),
+        ("fold_pi", c_int),
+        ("prefix", c_char_p),
+        ("call", c_char_p),
+    ]
+
+
+class WeftExportTable(Structure):
+    _fields_ = [
+        ("name", (c_char * 96)),
+        ("texels", WeftImage),
+        ("scale", c_float),
+        ("offset", c_float),
+    ]
+
+
+class WeftExport(Structure):
+    _fields_ = [
+        ("text", c_void_p),
+        ("size", c_size_t),
+        ("tables", (WeftExportTable * 32)),
+        ("table_count", c_int),
+    ]
+
+
 class WeftDataLobe(Structure):
     _fields_ = [
         ("error", c_double),
@@ -601,6 +626,155 @@ class WeftFitDesc(Structure):
         ("threads", c_int),
         ("progress", WeftProgress),
         ("user", c_void_p),
+    ]
+
+
+class WeftFloor(Structure):
+    _fields_ = [
+        ("on", c_int),
+        ("reflection", c_float),
+        ("roughness", c_float),
+    ]
+
+
+class WeftRenderDesc(Structure):
+    _fields_ = [
+        ("width", c_int),
+        ("height", c_int),
+        ("crop", (c_int * 4)),
+        ("max_depth", c_int),
+        ("seed", c_uint32),
+        ("threads", c_int),
+        ("camera", c_char_p),
+        ("background", c_int),
+        ("background_color", (c_float * 3)),
+        ("sampling", c_int),
+        ("pixel_centre", c_int),
+        ("no_roulette", c_int),
+        ("no_shadows", c_int),
+        ("floor", WeftFloor),
+        ("hide_lights", c_int),
+        ("halves", c_int),
+        ("first_hits", c_int),
+        ("places", c_int),
+        ("mattes", c_int),
+        ("slots", c_int),
+        ("noise", c_float),
+        ("stages", c_int),
+        ("no_lift", c_int),
+    ]
+
+
+class WeftRenderInfo(Structure):
+    _fields_ = [
+        ("samples_per_pixel", c_double),
+        ("rays", c_longlong),
+        ("non_finite", c_longlong),
+        ("build_seconds", c_double),
+        ("render_seconds", c_double),
+        ("camera_eye", (c_float * 3)),
+        ("camera_target", (c_float * 3)),
+        ("camera_fov", c_float),
+    ]
+
+
+class WeftRenderStage(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("seconds", c_double),
+        ("embree", c_int),
+    ]
+
+
+class WeftRenderLayers(Structure):
+    _fields_ = [
+        ("layers", POINTER(WeftImageLayer)),
+        ("layer_count", c_int),
+        ("texts", POINTER(WeftImageText)),
+        ("text_count", c_int),
+    ]
+
+
+class WeftJudgeDesc(Structure):
+    _fields_ = [
+        ("render", WeftRenderDesc),
+        ("spp", c_int),
+        ("tolerance", c_double),
+        ("spread", c_double),
+        ("explained", c_double),
+    ]
+
+
+class WeftJudgeInfo(Structure):
+    _fields_ = [
+        ("width", c_int),
+        ("height", c_int),
+        ("object_count", c_int),
+        ("left_out", c_int),
+        ("spp", c_int),
+        ("desc", WeftJudgeDesc),
+        ("camera_eye", (c_float * 3)),
+        ("camera_target", (c_float * 3)),
+        ("camera_fov", c_float),
+    ]
+
+
+class WeftJudgeObject(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("material", c_char_p),
+        ("mesh", c_int),
+        ("material_index", c_int),
+        ("pixels", c_int),
+        ("x", c_float),
+        ("y", c_float),
+        ("value", (c_float * 3)),
+        ("noise", (c_float * 3)),
+    ]
+
+
+class WeftCause(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("help", c_char_p),
+        ("kind", c_int),
+    ]
+
+
+class WeftJudgePicture(Structure):
+    _fields_ = [
+        ("image", POINTER(WeftImage)),
+        ("tone", WeftTone),
+        ("linear_integers", c_int),
+    ]
+
+
+class WeftCauseShare(Structure):
+    _fields_ = [
+        ("cause", c_int),
+        ("share", c_double),
+    ]
+
+
+class WeftVerdictObject(Structure):
+    _fields_ = [
+        ("value", (c_float * 3)),
+        ("expected", (c_float * 3)),
+        ("off", (c_float * 3)),
+        ("spread", c_double),
+        ("failed", c_int),
+        ("cause", WeftCauseShare),
+    ]
+
+
+class WeftVerdict(Structure):
+    _fields_ = [
+        ("objects", POINTER(WeftVerdictObject)),
+        ("object_count", c_int),
+        ("failed", c_int),
+        ("causes", POINTER(WeftCauseShare)),
+        ("cause_count", c_int),
+        ("explained", c_int),
     ]
 
 
@@ -842,72 +1016,6 @@ class WeftPlotData(Structure):
     ]
 
 
-class WeftFloor(Structure):
-    _fields_ = [
-        ("on", c_int),
-        ("reflection", c_float),
-        ("roughness", c_float),
-    ]
-
-
-class WeftRenderDesc(Structure):
-    _fields_ = [
-        ("width", c_int),
-        ("height", c_int),
-        ("crop", (c_int * 4)),
-        ("max_depth", c_int),
-        ("seed", c_uint32),
-        ("threads", c_int),
-        ("camera", c_char_p),
-        ("background", c_int),
-        ("background_color", (c_float * 3)),
-        ("sampling", c_int),
-        ("pixel_centre", c_int),
-        ("no_roulette", c_int),
-        ("no_shadows", c_int),
-        ("floor", WeftFloor),
-        ("hide_lights", c_int),
-        ("halves", c_int),
-        ("first_hits", c_int),
-        ("places", c_int),
-        ("mattes", c_int),
-        ("slots", c_int),
-        ("noise", c_float),
-        ("stages", c_int),
-        ("no_lift", c_int),
-    ]
-
-
-class WeftRenderInfo(Structure):
-    _fields_ = [
-        ("samples_per_pixel", c_double),
-        ("rays", c_longlong),
-        ("non_finite", c_longlong),
-        ("build_seconds", c_double),
-        ("render_seconds", c_double),
-        ("camera_eye", (c_float * 3)),
-        ("camera_target", (c_float * 3)),
-        ("camera_fov", c_float),
-    ]
-
-
-class WeftRenderStage(Structure):
-    _fields_ = [
-        ("name", c_char_p),
-        ("seconds", c_double),
-        ("embree", c_int),
-    ]
-
-
-class WeftRenderLayers(Structure):
-    _fields_ = [
-        ("layers", POINTER(WeftImageLayer)),
-        ("layer_count", c_int),
-        ("texts", POINTER(WeftImageText)),
-        ("text_count", c_int),
-    ]
-
-
 class WeftRasterDesc(Structure):
     _fields_ = [
         ("gl", c_int),
@@ -937,6 +1045,8 @@ class WeftRasterView(Structure):
         ("plain_textures", c_int),
         ("floor", WeftFloor),
         ("hide_lights", c_int),
+        ("bounces", c_int),
+        ("shading_rate", c_int),
     ]
 
 
@@ -969,6 +1079,14 @@ class WeftRasterInfo(Structure):
         ("camera_target", (c_float * 3)),
         ("camera_fov", c_float),
         ("complaint", (c_char * 512)),
+    ]
+
+
+class WeftTextile(Structure):
+    _fields_ = [
+        ("draft", c_void_p),
+        ("yarns", (c_char_p * 2)),
+        ("metres", c_double),
     ]
 
 
@@ -1027,17 +1145,30 @@ CONSTANTS = {
     "WEFT_HAIR_DENSITY": 1,
     "WEFT_HAIR_THICKNESS": 2,
     "WEFT_HAIR_NUMBERS": 3,
+    "WEFT_HOLD_COLOR": 256,
+    "WEFT_HOLD_COLOR_2": 512,
     "WEFT_EXPORT_MODELS_MAX": 16,
     "WEFT_EXPORT_TABLES_MAX": 32,
     "WEFT_EXPORT_NAME": 96,
-    "WEFT_HOLD_COLOR": 256,
-    "WEFT_HOLD_COLOR_2": 512,
     "WEFT_FITTED_NOTHING": 1,
     "WEFT_FITTED_BRIGHT": 2,
     "WEFT_FITTED_EDGE": 4,
     "WEFT_FITTED_GAINS": 8,
     "WEFT_FITTED_MOST": 768,
     "WEFT_FITTED_BASES": 16,
+    "WEFT_HALVES_INDEPENDENT": 1,
+    "WEFT_HALVES_SHARED": 2,
+    "WEFT_CAMERA_TEXT": 256,
+    "WEFT_CHANGED_MATERIALS": 1,
+    "WEFT_CHANGED_LIGHTS": 2,
+    "WEFT_CHANGED_SHAPES": 4,
+    "WEFT_RENDER_TILE": 16,
+    "WEFT_RENDER_BLOCK": 16,
+    "WEFT_RENDER_TILE_HEAD": 3,
+    "WEFT_RENDER_NUMBERS": 104,
+    "WEFT_JUDGE_MARGIN": 2,
+    "WEFT_JUDGE_CELL": 4,
+    "WEFT_JUDGE_PIXELS_LEAST": 16,
     "WEFT_PASSPORT_ROWS": 11,
     "WEFT_PASSPORT_COSINES": 21,
     "WEFT_PASSPORT_VIEWS": 5,
@@ -1051,16 +1182,6 @@ CONSTANTS = {
     "WEFT_PLOT_FIGURES_MAX": 6,
     "WEFT_PLOT_MARKS_MAX": 4,
     "WEFT_PLOT_LEGEND_MAX": 24,
-    "WEFT_HALVES_INDEPENDENT": 1,
-    "WEFT_HALVES_SHARED": 2,
-    "WEFT_CAMERA_TEXT": 256,
-    "WEFT_CHANGED_MATERIALS": 1,
-    "WEFT_CHANGED_LIGHTS": 2,
-    "WEFT_CHANGED_SHAPES": 4,
-    "WEFT_RENDER_TILE": 16,
-    "WEFT_RENDER_BLOCK": 16,
-    "WEFT_RENDER_TILE_HEAD": 3,
-    "WEFT_RENDER_NUMBERS": 104,
     "WEFT_RASTER_POLYGONS": 8,
     "WEFT_RASTER_FRAMES_MOST": 1048576,
     "WEFT_SHEET_PANELS_MAX": 256,
@@ -1191,16 +1312,51 @@ ENUMS = {
         "gem": 2,
         "metal": 3,
     },
-    "WeftMetric": {
-        "relmse": 0,
-        "flip": 1,
-        "ssim": 2,
-    },
     "WeftLightKind": {
         "directional": 0,
         "point": 1,
         "spot": 2,
         "polygon": 3,
+    },
+    "WeftThreads": {
+        "warp": 0,
+        "weft": 1,
+    },
+    "WeftInputKind": {
+        "scalar": 0,
+        "color": 1,
+        "normal": 2,
+        "direction": 3,
+        "angle": 4,
+    },
+    "WeftAlphaMode": {
+        "opaque": 0,
+        "mask": 1,
+        "blend": 2,
+    },
+    "WeftPart": {
+        "all": 0,
+        "diffuse": 1,
+        "specular": 2,
+        "sheen": 3,
+        "coat": 4,
+        "dust": 5,
+        "base-color": 6,
+        "normal": 7,
+        "roughness": 8,
+        "sheen-color": 9,
+        "sheen-roughness": 10,
+        "texcoord": 11,
+    },
+    "WeftBrdfMetric": {
+        "cosine": 0,
+        "log": 1,
+        "picture": 2,
+    },
+    "WeftMetric": {
+        "relmse": 0,
+        "flip": 1,
+        "ssim": 2,
     },
     "WeftSeverity": {
         "note": 0,
@@ -1250,28 +1406,24 @@ ENUMS = {
         "rest-pose": 39,
         "scene-empty": 40,
         "uv-uneven": 41,
+        "u3m-member": 42,
+        "u3m-size": 43,
+        "u3m-dpi": 44,
+        "u3m-repeat": 45,
+        "u3m-constant": 46,
+        "u3m-mode": 48,
+        "u3m-gloss": 49,
+        "u3m-specular": 50,
+        "u3m-tint": 51,
+        "u3m-coat-normal": 52,
+        "u3m-green": 53,
+        "u3m-normal-space": 54,
     },
     "WeftFindingOf": {
         "asset": 0,
         "material": 1,
         "mesh": 2,
         "image": 3,
-    },
-    "WeftThreads": {
-        "warp": 0,
-        "weft": 1,
-    },
-    "WeftInputKind": {
-        "scalar": 0,
-        "color": 1,
-        "normal": 2,
-        "direction": 3,
-        "angle": 4,
-    },
-    "WeftAlphaMode": {
-        "opaque": 0,
-        "mask": 1,
-        "blend": 2,
     },
     "WeftExportTarget": {
         "glsl": 0,
@@ -1287,58 +1439,6 @@ ENUMS = {
         "exr": 2,
         "dds": 3,
         "npy": 4,
-    },
-    "WeftPart": {
-        "all": 0,
-        "diffuse": 1,
-        "specular": 2,
-        "sheen": 3,
-        "coat": 4,
-        "dust": 5,
-        "base-color": 6,
-        "normal": 7,
-        "roughness": 8,
-        "sheen-color": 9,
-        "sheen-roughness": 10,
-        "texcoord": 11,
-    },
-    "WeftBrdfMetric": {
-        "cosine": 0,
-        "log": 1,
-        "picture": 2,
-    },
-    "WeftLtcChannel": {
-        "z": 0,
-        "q": 1,
-        "b": 2,
-        "r": 3,
-        "amplitude": 4,
-        "amplitude-f90": 5,
-        "error": 6,
-    },
-    "WeftPlotKind": {
-        "polar": 0,
-        "lobe3d": 1,
-        "cartesian": 2,
-        "albedo": 3,
-        "furnace": 4,
-        "slice": 5,
-        "sphere": 6,
-        "samples": 7,
-        "difference": 8,
-    },
-    "WeftPlotChannel": {
-        "luminance": 0,
-        "red": 1,
-        "green": 2,
-        "blue": 3,
-    },
-    "WeftPlotForm": {
-        "curves": 0,
-        "rose": 1,
-        "map": 2,
-        "surface": 3,
-        "picture": 4,
     },
     "WeftBackground": {
         "auto": 0,
@@ -1373,6 +1473,45 @@ ENUMS = {
         "regression": 0,
         "oidn": 1,
     },
+    "WeftCauseKind": {
+        "term": 0,
+        "engine": 1,
+        "light": 2,
+        "picture": 3,
+    },
+    "WeftLtcChannel": {
+        "z": 0,
+        "q": 1,
+        "b": 2,
+        "r": 3,
+        "amplitude": 4,
+        "amplitude-f90": 5,
+        "error": 6,
+    },
+    "WeftPlotKind": {
+        "polar": 0,
+        "lobe3d": 1,
+        "cartesian": 2,
+        "albedo": 3,
+        "furnace": 4,
+        "slice": 5,
+        "sphere": 6,
+        "samples": 7,
+        "difference": 8,
+    },
+    "WeftPlotChannel": {
+        "luminance": 0,
+        "red": 1,
+        "green": 2,
+        "blue": 3,
+    },
+    "WeftPlotForm": {
+        "curves": 0,
+        "rose": 1,
+        "map": 2,
+        "surface": 3,
+        "picture": 4,
+    },
     "WeftGl": {
         "desktop": 0,
         "es": 1,
@@ -1383,6 +1522,12 @@ ENUMS = {
         "mirror": 2,
         "fitted": 3,
         "none": 4,
+    },
+    "WeftMtlxNode": {
+        "open-pbr": 0,
+        "gltf": 1,
+        "standard": 2,
+        "nodes": 3,
     },
 }
 
@@ -1395,23 +1540,24 @@ CHOICES = {
     ("WeftAudit_found", "fault"): "WeftTableFault",
     ("WeftAlbedoFormDesc", "part"): "WeftTablePart",
     ("WeftChartEntry", "kind"): "WeftChartKind",
+    ("WeftLight", "kind"): "WeftLightKind",
+    ("WeftInputInfo", "kind"): "WeftInputKind",
+    ("WeftMaterial", "alpha_mode"): "WeftAlphaMode",
+    ("WeftMatchJob", "result"): "WeftResult",
     ("WeftDiffDesc", "metric"): "WeftMetric",
     ("WeftDiffDesc", "tonemap"): "WeftTonemap",
-    ("WeftLight", "kind"): "WeftLightKind",
     ("WeftFinding", "kind"): "WeftFindingKind",
     ("WeftFinding", "severity"): "WeftSeverity",
     ("WeftFinding", "of"): "WeftFindingOf",
-    ("WeftInputInfo", "kind"): "WeftInputKind",
-    ("WeftMaterial", "alpha_mode"): "WeftAlphaMode",
     ("WeftExportDesc", "target"): "WeftExportTarget",
     ("WeftExportDesc", "lut"): "WeftExportLut",
-    ("WeftMatchJob", "result"): "WeftResult",
     ("WeftFitDesc", "metric"): "WeftBrdfMetric",
+    ("WeftRenderDesc", "background"): "WeftBackground",
+    ("WeftRenderDesc", "sampling"): "WeftSampling",
+    ("WeftCause", "kind"): "WeftCauseKind",
     ("WeftPlotDesc", "kind"): "WeftPlotKind",
     ("WeftPlotDesc", "channel"): "WeftPlotChannel",
     ("WeftPlotPanel", "form"): "WeftPlotForm",
-    ("WeftRenderDesc", "background"): "WeftBackground",
-    ("WeftRenderDesc", "sampling"): "WeftSampling",
     ("WeftRasterDesc", "gl"): "WeftGl",
     ("WeftRasterView", "background"): "WeftBackground",
     ("WeftRasterView", "ambient"): "WeftAmbient",
@@ -1485,9 +1631,6 @@ CALLS = {
     "weft_bake_form": (c_int, (POINTER(WeftAlbedoFormDesc), POINTER(WeftAlbedoForm), POINTER(WeftError),)),
     "weft_form_at": (c_float, (POINTER(WeftAlbedoForm), c_float, c_float,)),
     "weft_chart": (POINTER(WeftChartEntry), (c_int,)),
-    "weft_metric_name": (c_char_p, (c_int,)),
-    "weft_diff": (c_int, (POINTER(WeftDiffDesc), POINTER(WeftDiff), POINTER(WeftImage), POINTER(WeftError),)),
-    "weft_diff_beyond": (c_double, (POINTER(WeftImage), c_int, c_double,)),
     "weft_scene_load": (c_int, (c_char_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_scene_load_watched": (c_int, (c_char_p, WeftProgress, c_void_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_scene_load_moment": (c_int, (c_char_p, POINTER(WeftMoment), WeftProgress, c_void_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
@@ -1532,19 +1675,6 @@ CALLS = {
     "weft_scene_put_light": (c_int, (c_void_p, c_int, POINTER(WeftLight), POINTER(WeftError),)),
     "weft_scene_remove_light": (c_int, (c_void_p, c_int, POINTER(WeftError),)),
     "weft_scene_camera": (c_int, (c_void_p, c_char_p, c_float, POINTER(WeftCamera), POINTER(WeftError),)),
-    "weft_finding_name": (c_char_p, (c_int,)),
-    "weft_finding_help": (c_char_p, (c_int,)),
-    "weft_finding_severity": (c_int, (c_int,)),
-    "weft_finding_fixable": (c_int, (c_int,)),
-    "weft_severity_name": (c_char_p, (c_int,)),
-    "weft_doctor_open": (c_int, (c_char_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
-    "weft_doctor_open_watched": (c_int, (c_char_p, WeftProgress, c_void_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
-    "weft_doctor_open_memory": (c_int, (c_void_p, c_size_t, c_char_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
-    "weft_doctor_close": (None, (c_void_p,)),
-    "weft_doctor_count": (c_int, (c_void_p,)),
-    "weft_doctor_finding": (POINTER(WeftFinding), (c_void_p, c_int,)),
-    "weft_doctor_info": (WeftDoctorInfo, (c_void_p,)),
-    "weft_doctor_fix": (c_int, (c_void_p, c_char_p, POINTER(WeftError),)),
     "weft_draft_read": (c_int, (c_char_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_draft_read_memory": (c_int, (c_void_p, c_size_t, c_char_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_draft_parse": (c_int, (c_char_p, c_void_p, POINTER(WeftError),)),
@@ -1597,12 +1727,6 @@ CALLS = {
     "weft_scene_texture": (WeftImage, (c_void_p, c_int,)),
     "weft_scene_add_texture": (c_int, (c_void_p, POINTER(WeftImage), POINTER(WeftError),)),
     "weft_scene_bind_maps": (c_int, (c_void_p, c_char_p, c_char_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
-    "weft_export_target_name": (c_char_p, (c_int,)),
-    "weft_export_target_help": (c_char_p, (c_int,)),
-    "weft_export_lut_name": (c_char_p, (c_int,)),
-    "weft_export": (c_int, (POINTER(WeftExportDesc), POINTER(WeftExport), POINTER(WeftError),)),
-    "weft_export_all": (c_int, (POINTER(WeftExportDesc), c_int, POINTER(WeftExport), POINTER(WeftError),)),
-    "weft_export_free": (None, (POINTER(WeftExport),)),
     "weft_part_name": (c_char_p, (c_int,)),
     "weft_reflection_create": (c_int, (POINTER(WeftMaterial), c_void_p, POINTER(WeftError),)),
     "weft_reflection_create_woven": (c_int, (POINTER(WeftMaterial), c_void_p, c_void_p, POINTER(WeftError),)),
@@ -1623,6 +1747,31 @@ CALLS = {
     "weft_match_many": (c_int, (POINTER(WeftMatchJob), c_int, c_int, c_int, WeftProgress, c_void_p, POINTER(WeftError),)),
     "weft_match_asset": (c_int, (c_char_p, c_char_p, c_int, c_int, c_int, WeftProgress, c_void_p, c_void_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_match_report_free": (None, (POINTER(WeftAssetMatch),)),
+    "weft_target_info": (c_int, (c_int, POINTER(WeftTarget),)),
+    "weft_deliver": (c_int, (c_char_p, c_char_p, c_int, c_int, c_int, WeftProgress, c_void_p, POINTER(WeftDelivery), POINTER(WeftLog), POINTER(WeftError),)),
+    "weft_delivery_free": (None, (POINTER(WeftDelivery),)),
+    "weft_metric_name": (c_char_p, (c_int,)),
+    "weft_diff": (c_int, (POINTER(WeftDiffDesc), POINTER(WeftDiff), POINTER(WeftImage), POINTER(WeftError),)),
+    "weft_diff_beyond": (c_double, (POINTER(WeftImage), c_int, c_double,)),
+    "weft_finding_name": (c_char_p, (c_int,)),
+    "weft_finding_help": (c_char_p, (c_int,)),
+    "weft_finding_severity": (c_int, (c_int,)),
+    "weft_finding_fixable": (c_int, (c_int,)),
+    "weft_severity_name": (c_char_p, (c_int,)),
+    "weft_doctor_open": (c_int, (c_char_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
+    "weft_doctor_open_watched": (c_int, (c_char_p, WeftProgress, c_void_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
+    "weft_doctor_open_memory": (c_int, (c_void_p, c_size_t, c_char_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
+    "weft_doctor_close": (None, (c_void_p,)),
+    "weft_doctor_count": (c_int, (c_void_p,)),
+    "weft_doctor_finding": (POINTER(WeftFinding), (c_void_p, c_int,)),
+    "weft_doctor_info": (WeftDoctorInfo, (c_void_p,)),
+    "weft_doctor_fix": (c_int, (c_void_p, c_char_p, POINTER(WeftError),)),
+    "weft_export_target_name": (c_char_p, (c_int,)),
+    "weft_export_target_help": (c_char_p, (c_int,)),
+    "weft_export_lut_name": (c_char_p, (c_int,)),
+    "weft_export": (c_int, (POINTER(WeftExportDesc), POINTER(WeftExport), POINTER(WeftError),)),
+    "weft_export_all": (c_int, (POINTER(WeftExportDesc), c_int, POINTER(WeftExport), POINTER(WeftError),)),
+    "weft_export_free": (None, (POINTER(WeftExport),)),
     "weft_data_read": (c_int, (c_char_p, c_void_p, POINTER(WeftError),)),
     "weft_data_read_memory": (c_int, (c_void_p, c_size_t, c_char_p, c_void_p, POINTER(WeftError),)),
     "weft_data_create": (c_int, (c_int, c_void_p, c_void_p, c_void_p, c_int, c_void_p, POINTER(WeftError),)),
@@ -1640,30 +1789,6 @@ CALLS = {
     "weft_isa_name": (c_char_p, (c_int,)),
     "weft_isa": (c_char_p, ()),
     "weft_isa_use": (c_int, (c_char_p, POINTER(WeftError),)),
-    "weft_ltc_channel_name": (c_char_p, (c_int,)),
-    "weft_ltc_create": (c_int, (POINTER(WeftLobe), POINTER(WeftLtcDesc), c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
-    "weft_ltc_free": (None, (c_void_p,)),
-    "weft_ltc_info": (WeftLtcInfo, (c_void_p,)),
-    "weft_ltc_channel": (c_void_p, (c_void_p, c_int,)),
-    "weft_ltc_cos_o": (c_float, (c_void_p, c_int,)),
-    "weft_ltc_value": (c_float, (c_void_p, c_int,)),
-    "weft_ltc_at": (WeftLtcLobe, (c_void_p, c_float, c_float,)),
-    "weft_ltc_inverse": (None, (POINTER(WeftLtcLobe), c_void_p, c_void_p,)),
-    "weft_ltc_pdf": (c_float, (POINTER(WeftLtcLobe), c_void_p, c_void_p,)),
-    "weft_ltc_sample": (c_float, (POINTER(WeftLtcLobe), c_void_p, c_void_p, c_void_p,)),
-    "weft_passport_measure": (c_int, (POINTER(WeftPassportDesc), POINTER(WeftPassport), POINTER(WeftError),)),
-    "weft_passport_significance": (c_double, (c_double, c_int,)),
-    "weft_pick_create": (c_int, (c_void_p, c_void_p, POINTER(WeftError),)),
-    "weft_pick_free": (None, (c_void_p,)),
-    "weft_pick_at": (c_int, (c_void_p, c_char_p, c_int, c_int, c_float, c_float, POINTER(WeftPicked),)),
-    "weft_plot_kind_name": (c_char_p, (c_int,)),
-    "weft_plot_kind_help": (c_char_p, (c_int,)),
-    "weft_plot_data": (c_int, (POINTER(WeftPlotDesc), POINTER(WeftPlotData), POINTER(WeftError),)),
-    "weft_plot_data_free": (None, (POINTER(WeftPlotData),)),
-    "weft_plot_image": (c_int, (POINTER(WeftPlotDesc), POINTER(WeftImage), POINTER(WeftError),)),
-    "weft_plot_suffix_known": (c_int, (c_char_p,)),
-    "weft_plot_write": (c_int, (POINTER(WeftPlotDesc), c_char_p, POINTER(WeftError),)),
-    "weft_plot_report": (c_int, (POINTER(WeftPlotDesc), c_char_p, POINTER(WeftError),)),
     "weft_scene_stage": (WeftFloor, (c_void_p,)),
     "weft_camera_rotated": (None, (c_void_p, c_void_p, c_float, c_int, c_int, c_void_p,)),
     "weft_render_create": (c_int, (c_void_p, POINTER(WeftRenderDesc), c_void_p, POINTER(WeftError),)),
@@ -1688,6 +1813,39 @@ CALLS = {
     "weft_denoiser_name": (c_char_p, (c_int,)),
     "weft_denoiser_check": (c_int, (c_int, POINTER(WeftError),)),
     "weft_render_denoised": (c_int, (c_void_p, c_int, POINTER(WeftImage), POINTER(WeftError),)),
+    "weft_judge_create": (c_int, (c_void_p, POINTER(WeftJudgeDesc), WeftProgress, c_void_p, c_void_p, POINTER(WeftError),)),
+    "weft_judge_free": (None, (c_void_p,)),
+    "weft_judge_info": (WeftJudgeInfo, (c_void_p,)),
+    "weft_judge_object": (c_int, (c_void_p, c_int, POINTER(WeftJudgeObject),)),
+    "weft_judge_reference": (POINTER(WeftImage), (c_void_p,)),
+    "weft_cause_kind_name": (c_char_p, (c_int,)),
+    "weft_judge_cause": (WeftCause, (c_int,)),
+    "weft_judge_pictures": (c_int, (c_void_p, POINTER(WeftJudgePicture), c_int, WeftProgress, c_void_p, POINTER(WeftVerdict), POINTER(WeftError),)),
+    "weft_verdict_free": (None, (POINTER(WeftVerdict),)),
+    "weft_ltc_channel_name": (c_char_p, (c_int,)),
+    "weft_ltc_create": (c_int, (POINTER(WeftLobe), POINTER(WeftLtcDesc), c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
+    "weft_ltc_free": (None, (c_void_p,)),
+    "weft_ltc_info": (WeftLtcInfo, (c_void_p,)),
+    "weft_ltc_channel": (c_void_p, (c_void_p, c_int,)),
+    "weft_ltc_cos_o": (c_float, (c_void_p, c_int,)),
+    "weft_ltc_value": (c_float, (c_void_p, c_int,)),
+    "weft_ltc_at": (WeftLtcLobe, (c_void_p, c_float, c_float,)),
+    "weft_ltc_inverse": (None, (POINTER(WeftLtcLobe), c_void_p, c_void_p,)),
+    "weft_ltc_pdf": (c_float, (POINTER(WeftLtcLobe), c_void_p, c_void_p,)),
+    "weft_ltc_sample": (c_float, (POINTER(WeftLtcLobe), c_void_p, c_void_p, c_void_p,)),
+    "weft_passport_measure": (c_int, (POINTER(WeftPassportDesc), POINTER(WeftPassport), POINTER(WeftError),)),
+    "weft_passport_significance": (c_double, (c_double, c_int,)),
+    "weft_pick_create": (c_int, (c_void_p, c_void_p, POINTER(WeftError),)),
+    "weft_pick_free": (None, (c_void_p,)),
+    "weft_pick_at": (c_int, (c_void_p, c_char_p, c_int, c_int, c_float, c_float, POINTER(WeftPicked),)),
+    "weft_plot_kind_name": (c_char_p, (c_int,)),
+    "weft_plot_kind_help": (c_char_p, (c_int,)),
+    "weft_plot_data": (c_int, (POINTER(WeftPlotDesc), POINTER(WeftPlotData), POINTER(WeftError),)),
+    "weft_plot_data_free": (None, (POINTER(WeftPlotData),)),
+    "weft_plot_image": (c_int, (POINTER(WeftPlotDesc), POINTER(WeftImage), POINTER(WeftError),)),
+    "weft_plot_suffix_known": (c_int, (c_char_p,)),
+    "weft_plot_write": (c_int, (POINTER(WeftPlotDesc), c_char_p, POINTER(WeftError),)),
+    "weft_plot_report": (c_int, (POINTER(WeftPlotDesc), c_char_p, POINTER(WeftError),)),
     "weft_raster_create": (c_int, (c_void_p, POINTER(WeftRasterDesc), c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_raster_free": (None, (c_void_p,)),
     "weft_raster_update": (c_int, (c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
@@ -1704,6 +1862,9 @@ CALLS = {
     "weft_raster_info": (WeftRasterInfo, (c_void_p,)),
     "weft_root_use": (c_int, (c_char_p, POINTER(WeftError),)),
     "weft_scene_save_material": (c_int, (c_void_p, c_int, c_char_p, POINTER(WeftError),)),
+    "weft_mtlx_node_name": (c_char_p, (c_int,)),
+    "weft_scene_save_mtlx": (c_int, (c_void_p, c_int, c_char_p, c_int, POINTER(WeftLog), POINTER(WeftError),)),
+    "weft_scene_save_u3m": (c_int, (c_void_p, c_int, c_char_p, POINTER(WeftTextile), POINTER(WeftLog), POINTER(WeftError),)),
     "weft_scene_save": (c_int, (c_void_p, c_char_p, POINTER(WeftError),)),
     "weft_sheet_compose": (c_int, (POINTER(WeftSheetDesc), POINTER(WeftImage), POINTER(WeftError),)),
     "weft_difference": (c_int, (POINTER(WeftImage), POINTER(WeftImage), POINTER(WeftDifference), POINTER(WeftError),)),

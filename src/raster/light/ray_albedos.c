@@ -86,13 +86,13 @@ RayAlbedo *ray_albedos_make(const WeftScene *scene, const SheenTables *sheens) {
 }
 
 /* Places of a triangle's corners in a map. */
-typedef struct Corners {
+typedef struct TriangleCorners {
     float u[3], v[3];
-} Corners;
+} TriangleCorners;
 
-static Corners corners_of(const Mesh *mesh, const uint32_t *index, const Input *input) {
+static TriangleCorners corners_of(const Mesh *mesh, const uint32_t *index, const Input *input) {
     const float *uv = mesh->texcoord[input->texcoord], *m = input->transform;
-    Corners corners;
+    TriangleCorners corners;
     for (int k = 0; k < 3; k++) {
         const float u = uv ? uv[2 * (size_t)index[k]] : 0.0f, v = uv ? uv[2 * (size_t)index[k] + 1] : 0.0f;
         corners.u[k] = m[0] * u + m[1] * v + m[2];
@@ -102,7 +102,7 @@ static Corners corners_of(const Mesh *mesh, const uint32_t *index, const Input *
 }
 
 /* Returns by how many steps a triangle is divided, for the texels that it spans. */
-static int steps_of(const Corners *at, const WeftImage *image) {
+static int steps_of(const TriangleCorners *at, const WeftImage *image) {
     const float wide = fmaxf(at->u[0], fmaxf(at->u[1], at->u[2])) - fminf(at->u[0], fminf(at->u[1], at->u[2])),
                 high = fmaxf(at->v[0], fmaxf(at->v[1], at->v[2])) - fminf(at->v[0], fminf(at->v[1], at->v[2]));
     const float texels = fmaxf(wide * (float)image->width, high * (float)image->height);
@@ -113,7 +113,7 @@ static int steps_of(const Corners *at, const WeftImage *image) {
 static void map_mean(const WeftScene *scene, const Mesh *mesh, const uint32_t *index, const Input *input,
                      float mean[3]) {
     const Texture *texture = &scene->textures[input->texture - 1];
-    const Corners at = corners_of(mesh, index, input);
+    const TriangleCorners at = corners_of(mesh, index, input);
     const int steps = steps_of(&at, &scene->images[texture->image]), count = steps * steps;
     mean[0] = mean[1] = mean[2] = 0.0f;
     for (int k = 0; k < count; k++) {

@@ -46,7 +46,7 @@ static bool make_tree(RayScene *self, const WeftScene *scene) {
 
 static void put(float *texel, Vec3 v, float w) { texel[0] = v.x, texel[1] = v.y, texel[2] = v.z, texel[3] = w; }
 
-/* albedos: NULL where nothing bounces. */
+/* Puts a triangle into the texture. albedos is NULL where nothing bounces. */
 static void put_triangle(const WeftScene *scene, const RayAlbedo *albedos, TrianglePlace at, float *triangle,
                          float *normals) {
     const Mesh *mesh = &scene->meshes[at.mesh];

@@ -27,7 +27,7 @@ typedef struct RayScene {
     RayTree tree;
     unsigned shape_version; /* of the tree, as in WeftScene */
     bool filled;            /* the texture has the scene as it is; set it to false when materials change */
-    bool bounces;           /* it has what triangles send back */
+    bool bounces;           /* the texture has what triangles send back */
     unsigned texture;       /* 0: none */
     int rows;               /* of the texture */
     int first[5];           /* texel of the first node, triangle, normal, emitter and mask */
