@@ -115,17 +115,18 @@ static void files_hold_what_targets_read(const char *folder, const char *name) {
     }
 }
 
-/* The numbers of every target; far and near, colours differ by no more than `most`. */
-static void numbers_are_within(const char *path, double most, double sky) {
+/* The numbers of every target; far and near, colours differ by no more than `most`, or `bare` without extensions. */
+static void numbers_are_within(const char *path, double most, double bare, double sky) {
     json_t *summary = json_of(path), *target;
     size_t k;
     assert_true(json_array_size(json_object_get(summary, "targets")) == 6);
     json_array_foreach(json_object_get(summary, "targets"), k, target) {
         const json_t *errors = json_object_get(target, "errors");
         const char *name = json_string_value(json_object_get(target, "target"));
+        const double limit = strcmp(name, "core") == 0 ? bare : most;
         for (int v = 0; v < 2; v++) {
             const json_t *view = json_object_get(errors, v ? "far" : "near");
-            if (!(number(view, "mean_color") <= most) || !(number(view, "profile_l1") <= most))
+            if (!(number(view, "mean_color") <= limit) || !(number(view, "profile_l1") <= limit))
                 fail_msg("%s: %s: %g, columns %g", name, v ? "far" : "near", number(view, "mean_color"),
                          number(view, "profile_l1"));
             assert_true(number(view, "flip") >= 0.0 && number(view, "flip") < 0.5 && number(view, "contrast") > 0.0);
@@ -143,7 +144,7 @@ static void draft_is_delivered_to_every_target(void **state) {
                    "--size", "128", "--width", "64", "--spp", "8"));
     assert_int_equal(files_in("cloth"), 13); /* and nothing of the work */
     files_hold_what_targets_read("cloth", "twill-3-1-warp-1-28385c-weft-1w-sett-26-18");
-    numbers_are_within("cloth/twill-3-1-warp-1-28385c-weft-1w-sett-26-18.json", 0.5, 0.4);
+    numbers_are_within("cloth/twill-3-1-warp-1-28385c-weft-1w-sett-26-18.json", 0.5, 0.5, 0.4);
     json_t *summary = json_of("cloth/twill-3-1-warp-1-28385c-weft-1w-sett-26-18.json");
     const json_t *lost = json_object_get(target_of(summary, "filament"), "lost");
     assert_true(json_array_size(lost) == 1);
@@ -158,7 +159,7 @@ static void material_is_delivered_near_the_truth(void **state) {
     delivered(LIST("deliver", "preset:velvet", "--to", all_targets, "-o", "soft", "--name", "v", "--width", "64",
                    "--spp", "16"));
     files_hold_what_targets_read("soft", "v");
-    numbers_are_within("soft/v.json", 0.35, 0.3);
+    numbers_are_within("soft/v.json", 0.1, 0.35, 0.2);
     json_t *summary = json_of("soft/v.json");
     static const char *const near[] = {"three", "babylon", "filament", "blender"};
     for (int k = 0; k < 4; k++) {
@@ -202,7 +203,7 @@ static void asset_keeps_all_that_the_target_reads(void **state) {
     asset_make(everything);
     delivered(LIST("deliver", "asset.gltf", "--to", all_targets, "-o", "asset", "--width", "48", "--spp", "8"));
     files_hold_what_targets_read("asset", "asset");
-    numbers_are_within("asset/asset.json", 0.1, 0.25);
+    numbers_are_within("asset/asset.json", 0.06, 0.15, 0.25);
     json_t *root = glb_json("asset/asset-filament.glb");
     const json_t *material = json_array_get(json_object_get(root, "materials"), 0);
     /* the index of refraction became a specular colour: (0.8 / 2.8)^2 / 0.04 */

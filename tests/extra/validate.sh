@@ -1,5 +1,5 @@
 #!/bin/sh
-# Saves every built-in scene, and one in every preset, as .glb and .gltf, mends some, and has the Khronos
+# Saves every built-in scene, and one in every preset, as .glb and .gltf, mends and delivers some, and has the Khronos
 # validator find no error in them: tests/extra/validate.sh PROGRAM FOLDER. Fetches the validator into FOLDER with npm.
 set -eu
 program=$(realpath "$1")
@@ -31,5 +31,10 @@ for name in everything.glb everything.gltf cloth.glb velvet.gltf; do
     for kind in glb gltf; do # exit 1: something is left that is no error of the file
         "$program" doctor "saved/$name" --fix -o "saved/mended-${name%.*}-${name##*.}.$kind" >/dev/null || [ $? = 1 ]
     done
+done
+# Files for viewers have no more to complain about.
+for source in saved/everything.glb saved/velvet.gltf preset:woven-denim; do
+    "$program" deliver "$source" --to khronos,three,babylon,filament,blender,core -o saved --width 32 --spp 1 --size 64 \
+        >/dev/null
 done
 node "$here/validate.mjs" saved/*.glb saved/*.gltf

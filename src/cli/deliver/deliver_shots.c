@@ -22,7 +22,8 @@ static bool middle_find(const Delivery *delivery, const WeftPick *pick, WeftPick
     double best = 1.0; /* the square of the distance from the middle, of 1 across */
     *out = (WeftPicked){.mesh = -1};
     for (int k = 0; k < GRID * GRID; k++) {
-        const double x = ((k % GRID) + 0.5) / GRID, y = ((k - k % GRID) / GRID + 0.5) / GRID;
+        const int row = k / GRID;
+        const double x = ((k % GRID) + 0.5) / GRID, y = (row + 0.5) / GRID;
         const double off = (x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5);
         WeftPicked picked;
         if (off < best && weft_pick_at(pick, delivery->cameras[VIEW_FAR], delivery->width, delivery->height,

@@ -29,21 +29,20 @@ static int told(WeftResult result, const WeftError *error) {
     return result == WEFT_OK || result == WEFT_INTERRUPTED ? (int)result : report_error(error);
 }
 
-static int material_load(const char *what, WeftScene *scene) {
-    const WeftLog log = {.fn = report_warning};
+static int material_load(const char *what, WeftScene *scene, const WeftLog *log) {
     WeftError error;
     char path[DELIVER_PATH];
     snprintf(path, sizeof path, "%s%s", is_preset(what) ? "preset:" : "", what);
-    return told(weft_scene_assign_material(scene, NULL, path, &log, &error), &error);
+    return told(weft_scene_assign_material(scene, NULL, path, log, &error), &error);
 }
 
 /* Weaves the cloth of the scene from a draft, as `weft weave` does. */
-static int draft_load(const Delivery *delivery, WeftScene *scene) {
+static int draft_load(const Delivery *delivery, WeftScene *scene, const WeftLog *log) {
     const Options *options = delivery->options;
     WeftDraft *draft = NULL;
     WeftYarn yarns[2];
     WeftError error;
-    int result = draft_read(delivery->what, &draft);
+    int result = draft_read(delivery->what, log, &draft);
     if (result == 0) result = draft_sett(option_text(options, "--sett"), draft);
     if (result == 0) result = yarns_read(option_text(options, "--yarn"), yarns);
     if (result == 0) result = told(weft_scene_weave(scene, "0", "draft", "plain", NULL, &error), &error);
@@ -97,7 +96,8 @@ static int meaning_set(Delivery *delivery, SourceKind kind, WeftScene *scene) {
 }
 
 int source_load(Delivery *delivery, WeftScene **out) {
-    const WeftLog log = {.fn = report_warning};
+    static const WeftLog warnings = {.fn = report_warning};
+    const WeftLog *log = delivery->loaded ? NULL : &warnings; /* each warning once */
     const SourceKind kind = kind_of_source(delivery->what);
     const bool file = kind == SOURCE_ASSET || kind == SOURCE_SCENE;
     WeftError error;
@@ -107,11 +107,12 @@ int source_load(Delivery *delivery, WeftScene **out) {
                       "%.300s: is a measurement, not a material; fit one to it first: weft fit FILE -o fitted.json",
                       delivery->what);
     int result = told(weft_scene_load_watched(file ? delivery->what : "builtin:bend", delivery_heed, delivery, out,
-                                              file ? &log : NULL, &error),
+                                              file ? log : NULL, &error),
                       &error);
-    if (result == 0 && kind == SOURCE_MATERIAL) result = material_load(delivery->what, *out);
-    if (result == 0 && kind == SOURCE_DRAFT) result = draft_load(delivery, *out);
+    if (result == 0 && kind == SOURCE_MATERIAL) result = material_load(delivery->what, *out, log);
+    if (result == 0 && kind == SOURCE_DRAFT) result = draft_load(delivery, *out, log);
     if (result == 0) result = meaning_set(delivery, kind, *out);
+    delivery->loaded = true;
     return result;
 }
 

@@ -45,6 +45,7 @@ typedef struct Delivery {
     char name[DELIVER_NAME];      /* of the files, before -TARGET */
     char temporary[DELIVER_PATH]; /* the folder in which all is made; "": none */
     bool made;                    /* the folder was made for this */
+    bool loaded;                  /* what is delivered was read before, and its warnings are known */
     int from;                     /* the profile of the original, or -1 */
     const char *reference;        /* what the pictures are compared with, in words */
     WeftBrdfMetric metric;

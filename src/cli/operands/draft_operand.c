@@ -6,10 +6,9 @@
 #include "cli/console/options.h"
 #include "cli/console/report.h"
 
-int draft_read(const char *what, WeftDraft **out) {
-    const WeftLog log = {.fn = report_warning};
+int draft_read(const char *what, const WeftLog *log, WeftDraft **out) {
     WeftError error;
-    if (weft_draft_read(what, out, &log, &error) == WEFT_OK) return 0;
+    if (weft_draft_read(what, out, log, &error) == WEFT_OK) return 0;
     if (error.message != WEFT_MESSAGE_FILE_OPEN) return report_error(&error);
     return report((int)error.result, "%s; words such as twill 2/2 need no file", error.text);
 }

@@ -38,8 +38,9 @@ static double sett(const WeftDraftInfo *info, WeftThreads threads) {
 }
 
 static int draft_make(Weaving *weaving) {
+    const WeftLog log = {.fn = report_warning};
     WeftError error;
-    const int read = draft_read(weaving->what, &weaving->draft);
+    const int read = draft_read(weaving->what, &log, &weaving->draft);
     if (read != 0) return read;
     if (option_given(weaving->options, "--back")) {
         WeftDraft *back;

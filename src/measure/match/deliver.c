@@ -125,17 +125,22 @@ static WeftResult file_limit(Delivering *self, const char *path, WeftError *erro
     return result;
 }
 
-/* Returns the light that a reflection returns under an even sky, the mean of its channels: 2 times the integral of E over
- * the square of the cosine, by midpoints. */
-static double even_sky(const WeftReflection *reflection) {
+/* Fills in the light that a part of a reflection returns under an even sky, by channels: 2 times the integral of E over the
+ * square of the cosine, by midpoints. */
+static void sky_of(const WeftReflection *reflection, int part, double sky[3]) {
     enum { STEPS = 12 };
-    double sum = 0.0;
+    memset(sky, 0, 3 * sizeof *sky);
     for (int k = 0; k < STEPS; k++) {
         float e[3];
-        weft_reflection_albedo(reflection, WEFT_PART_ALL, (float)(sqrt)(((double)k + 0.5) / STEPS), e);
-        sum += (double)(e[0] + e[1] + e[2]) / 3.0;
+        weft_reflection_albedo(reflection, part, (float)(sqrt)(((double)k + 0.5) / STEPS), e);
+        for (int c = 0; c < 3; c++) sky[c] += (double)e[c] / STEPS;
     }
-    return sum / STEPS;
+}
+
+static double even_sky(const WeftReflection *reflection) {
+    double sky[3];
+    sky_of(reflection, WEFT_PART_ALL, sky);
+    return (sky[0] + sky[1] + sky[2]) / 3.0;
 }
 
 /* Locks every input but the factors. */
@@ -153,6 +158,28 @@ static void parcel_clip(Parcel *parcel) {
         }
 }
 
+/* Scales the base colour so that the material returns as much light under an even sky as the original. Without a rim the
+ * least error over directions is darker, since it gives up the rim. */
+static WeftResult parcel_level(Parcel *parcel, WeftError *error) {
+    WeftReflection *now = NULL;
+    double original[3], all[3], diffuse[3];
+    const WeftResult result = weft_reflection_create(&parcel->written, &now, error);
+    if (result != WEFT_OK) return result;
+    sky_of(parcel->original, WEFT_PART_ALL, original);
+    sky_of(now, WEFT_PART_ALL, all);
+    sky_of(now, WEFT_PART_DIFFUSE, diffuse);
+    weft_reflection_free(now);
+    for (int c = 0; c < 3; c++) {
+        float *value = &parcel->written.inputs[INPUT_base_color].value[c];
+        const double scale = 1.0 + (original[c] - all[c]) / fmax(diffuse[c], 1e-4);
+        *value = (float)fmin(fmax((double)*value * scale, 0.0), 1.0);
+    }
+    return WEFT_OK;
+}
+
+/* Returns true if a target shows no rim at all. */
+static bool is_bare(const Delivering *self) { return strcmp(weft_profile_name(self->profile), "core") == 0; }
+
 /* Searches one material, where that is due, and measures it. */
 static WeftResult parcel_match(Delivering *self, int k, ItemProgress *item_progress, WeftError *error) {
     Parcel *parcel = &self->parcels[k];
@@ -166,6 +193,7 @@ static WeftResult parcel_match(Delivering *self, int k, ItemProgress *item_progr
     if (result == WEFT_OK && (parcel->limited || self->from < 0))
         result = match_material(parcel->original, self->metric, locked, item_progress, &parcel->written,
                                 &delivered->found, error);
+    if (result == WEFT_OK && parcel->limited && is_bare(self)) result = parcel_level(parcel, error);
     parcel_clip(parcel);
     if (result == WEFT_OK) result = weft_reflection_create(&plain, &copy, error);
     if (result == WEFT_OK) result = weft_reflection_create(&parcel->written, &now, error);
@@ -279,10 +307,8 @@ static WeftResult file_finish(Delivering *self, WeftDelivery *delivery, WeftErro
 
 /* Matches the sheens as weft_match_asset does, where the target has any, and takes out what it does not read. */
 static WeftResult file_make(Delivering *self, WeftError *error) {
-    WeftTarget core = {.name = NULL};
     int count;
-    weft_target_info(self->target, &core);
-    const bool sheens = strcmp(core.profile, "core") != 0 && self->from >= 0;
+    const bool sheens = !is_bare(self) && self->from >= 0;
     WeftResult result = WEFT_OK;
     if (sheens)
         result = weft_match_asset(self->path, self->out, self->from, self->profile, self->metric, part(self, 0.05, 0.5),
