@@ -113,13 +113,15 @@ typedef struct WeftAssetMatch {
  * sheen_color, sheen_roughness and specular of materials that have a sheen change, so that under profile `to` they
  * come closest to what they are under profile `from` (indices of weft_profile_name). Textures of the first four are
  * rewritten as PNGs where a factor does not do: each texel by a curve through matches at seven roughnesses of sheen or
- * base and three brightnesses of the sheen. A colour of sheen or base that has no texture gets one if it has to follow
- * the sheen's; where its texture has other coordinates than the sheen's, its factor alone changes. All else, old images
- * included, stays as it is, byte for byte. Materials whose textures have the same means and ranges share one search;
- * the searches run on all processors. progress (may be NULL) receives the finished fraction, reading and writing
- * aside, and can stop the work in the midst of a search or an image: WEFT_INTERRUPTED, and nothing is written. *report
- * (report may be NULL) receives a record of each of *count materials; on success it is owned by the caller: release it
- * with weft_match_report_free. Fails with WEFT_MESSAGE_DESC (no such profile), and as reading and writing a file do. */
+ * base and three brightnesses of the sheen, of the mean of the texels around each; specular then stays. A colour of
+ * sheen or base that has no texture gets one if it has to follow the sheen's; where its texture has other coordinates
+ * than the sheen's, its factor alone changes. At some texels, new textures are weighed against factors alone and
+ * against the material as it is, and what is nearest is written. All else, old images included, stays as it is, byte
+ * for byte. Materials whose textures have the same means and ranges share one search; the searches run on all
+ * processors. progress (may be NULL) receives the finished fraction, reading and writing aside, and can stop the work
+ * in the midst of a search or an image: WEFT_INTERRUPTED, and nothing is written. *report (report may be NULL) receives
+ * a record of each of *count materials; on success it is owned by the caller: release it with weft_match_report_free.
+ * Fails with WEFT_MESSAGE_DESC (no such profile), and as reading and writing a file do. */
 WEFT_API WeftResult weft_match_asset(const char *path, const char *out, int from, int to, WeftBrdfMetric metric,
                                      WeftProgress progress, void *user, WeftAssetMatch **report, int *count,
                                      const WeftLog *log, WeftError *error);

@@ -13,6 +13,7 @@
 #include "measure/bsdf/material_key.h"
 #include "measure/match/match.h"
 #include "measure/match/match_curves.h"
+#include "measure/match/match_place.h"
 #include "measure/match/match_texels.h"
 #include "scene/record/scene.h"
 #include "shading/material/choice.h"
@@ -253,9 +254,14 @@ static bool same_range(ValueRange a, ValueRange b) {
     return fabs(a.low - b.low) <= 0.0 && fabs(a.high - b.high) <= 0.0;
 }
 
+/* Returns true if both have the same texels around their nodes. */
+static bool same_means(const MatchCurves *a, const MatchCurves *b) {
+    return memcmp((const char *)a->mean, (const char *)b->mean, sizeof a->mean) == 0;
+}
+
 static bool same_ranges(const MatchCurves *a, const MatchCurves *b) {
     return same_range(a->sheen_roughness, b->sheen_roughness) && same_range(a->brightness, b->brightness) &&
-           same_range(a->roughness, b->roughness) && a->rows == b->rows;
+           same_range(a->roughness, b->roughness) && a->rows == b->rows && same_means(a, b);
 }
 
 /* Returns the index of the search for a material without textures; adds the search if there is none yet. */
@@ -282,10 +288,11 @@ static WeftResult plan(AssetSearch *self, WeftError *error) {
         match->matched = match->copied;
         if (result != WEFT_OK || !has_sheen(&match->copied)) continue;
         if (self->progress && self->progress(self->user, 0.0)) return WEFT_INTERRUPTED;
-        const MatchCurves curves = curves_of(self, &match->copied);
+        MatchCurves curves = curves_of(self, &match->copied);
         WeftMaterial average = match->copied;
         means_of(self, &match->copied, material->means);
         to_average(self, &average);
+        place_means(self->scene, &match->copied, &average, &curves);
         weft_material_choose(&average, CHOICE_profile, self->from);
         material->search = search_for(self, &average, &curves);
     }
@@ -314,6 +321,8 @@ static void node_prepare(const AssetSearch *self, int phase, NodeSearch *run) {
     run->node = (CurveNode){.from = search->average, .to = search->average};
     weft_material_choose(&run->node.to, CHOICE_profile, self->to);
     lock_rest(run->node.locked);
+    /* the mean is no measure for texels that differ much, and the specular has no texture that could follow them */
+    run->node.locked[INPUT_specular] |= curves_vary_sheen(&search->curves);
 }
 
 static void node_take(AssetSearch *self, int phase, const NodeSearch *run) {

@@ -14,7 +14,7 @@ static const double dark = 1e-3;
 static bool varies(ValueRange range) { return range.high - range.low > range_least; }
 
 static double at_node(ValueRange range, int k, int count) {
-    return range.low + (range.high - range.low) * k / (count - 1.0);
+    return count < 2 ? range.low : range.low + (range.high - range.low) * k / (count - 1.0);
 }
 
 void curves_begin(MatchCurves *curves, bool joined) {
@@ -38,23 +38,38 @@ typedef struct NodePlace {
 } NodePlace;
 
 static NodePlace place_of(const MatchCurves *curves, int phase, int k) {
-    const int columns = curves_vary_sheen(curves) ? curves->columns : 0;
+    const int columns = curves->columns > 1 ? curves->columns : 1;
     if (phase == 1) return (NodePlace){true, k / columns, k % columns};
-    return k < columns ? (NodePlace){true, curves->rows - 1, k} : (NodePlace){false, 0, k - columns};
+    const int sheens = curves_vary_sheen(curves) ? columns : 0;
+    return k < sheens ? (NodePlace){true, curves->rows - 1, k} : (NodePlace){false, 0, k - sheens};
 }
 
 static double brightest(const float *color) { return (double)fmaxf(fmaxf(color[0], color[1]), color[2]); }
 
-/* Sets the sheen of a node in `from`: the hue is that of the mean. */
-static void sheen_set(const MatchCurves *curves, NodePlace place, WeftMaterial *from) {
-    float *color = from->inputs[INPUT_sheen_color].value;
-    const double mean = brightest(color);
+/* Sets a number under both profiles: in `to` it changes in proportion. */
+static void number_set(CurveNode *node, InputId input, double value) {
+    float *from = node->from.inputs[input].value, *to = node->to.inputs[input].value;
+    *to = *from > 0.0f ? (float)fmin((double)*to * value / (double)*from, 1.0) : (float)value;
+    *from = (float)value;
+}
+
+/* Makes a node the mean of the texels around it, with its own roughness and brightness of the sheen. */
+static void sheen_set(const MatchCurves *curves, NodePlace place, CurveNode *node) {
+    const NodeMean *mean = &curves->mean[place.row][place.column];
+    float *color = node->from.inputs[INPUT_sheen_color].value, *base = node->from.inputs[INPUT_base_color].value;
+    if (mean->weight > 0.0) {
+        for (int c = 0; c < 3; c++) base[c] = (float)mean->base_color[c];
+        for (int c = 0; c < 3 && mean->sheen_color[c] > 0.0; c++) color[c] = (float)mean->sheen_color[c];
+        number_set(node, INPUT_roughness, mean->roughness);
+        number_set(node, INPUT_metallic, mean->metallic);
+    }
     if (curves->columns > 1)
-        from->inputs[INPUT_sheen_roughness].value[0] =
+        node->from.inputs[INPUT_sheen_roughness].value[0] =
             (float)at_node(curves->sheen_roughness, place.column, curves->columns);
-    if (curves->rows == 1 || !(mean > 0.0)) return;
+    const double most = brightest(color);
+    if (curves->rows == 1 || !(most > 0.0)) return;
     const double wanted = at_node(curves->brightness, place.row, curves->rows);
-    for (int c = 0; c < 3; c++) color[c] = (float)((double)color[c] * wanted / mean);
+    for (int c = 0; c < 3; c++) color[c] = (float)((double)color[c] * wanted / most);
 }
 
 static bool is_dark(const MatchCurves *curves, NodePlace place) {
@@ -88,7 +103,7 @@ void curves_node(const MatchCurves *curves, int phase, int k, const WeftMaterial
     }
     static const InputId open[] = {INPUT_sheen_roughness, INPUT_sheen_color, INPUT_base_color};
     for (size_t n = 0; n < sizeof open / sizeof *open; n++) node->locked[open[n]] = 0;
-    sheen_set(curves, place, &node->from);
+    sheen_set(curves, place, node);
     if (phase == 1) {
         sheen_start(curves, place, node);
         return;
@@ -136,6 +151,17 @@ static Between between(ValueRange range, int count, double x) {
     return (Between){first, at - first};
 }
 
+void curves_around(const MatchCurves *curves, double roughness, double brightness, CurvePlace out[4]) {
+    const Between column = between(curves->sheen_roughness, curves->columns, roughness);
+    const Between row = between(curves->brightness, curves->rows, brightness);
+    for (int k = 0; k < 4; k++) {
+        const int right = k & 1, down = k >> 1;
+        out[k] = (CurvePlace){.row = row.first + (curves->rows > 1 ? down : 0),
+                              .column = column.first + (curves->columns > 1 ? right : 0),
+                              .weight = (down ? row.t : 1.0 - row.t) * (right ? column.t : 1.0 - column.t)};
+    }
+}
+
 /* Returns the slope at node k of evenly spaced nodes, per step: the harmonic mean of those beside it. */
 static double slope(const double *y, int count, int k) {
     if (k == 0 || k == count - 1) return k == 0 ? y[1] - y[0] : y[k] - y[k - 1];
@@ -164,7 +190,7 @@ SheenTexel curves_sheen(const MatchCurves *curves, double roughness, double brig
     for (int n = 0; n < NUMBERS; n++) {
         double end[2] = {0.0};
         for (int r = 0; r < 2; r++) {
-            double y[CURVE_NODES];
+            double y[CURVE_NODES] = {0.0};
             const int at = row.first + r < curves->rows ? row.first + r : row.first;
             for (int k = 0; k < curves->columns; k++) y[k] = number_of(&curves->node[at][k], n);
             end[r] = cubic(y, curves->columns, column);
@@ -194,7 +220,7 @@ static bool is_factor(ValueRange range, int count, const double *now, double *fa
 }
 
 bool curves_sheen_is_factor(const MatchCurves *curves, double *factor) {
-    double now[CURVE_NODES];
+    double now[CURVE_NODES] = {0.0};
     for (int k = 0; k < curves->columns; k++) now[k] = curves->node[curves->rows - 1][k].roughness;
     return is_factor(curves->sheen_roughness, curves->columns, now, factor);
 }

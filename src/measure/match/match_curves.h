@@ -1,8 +1,8 @@
 /* match_curves.h - the match of a material at every value that its textures have
  *
  * The match of a material's mean says what becomes of its numbers. If the roughness or the colour of the sheen come from
- * textures, it is repeated at nodes: roughness and specular stay those of the mean's match, the roughness of the sheen
- * becomes another one, and the colours of sheen and base are multiplied by gains. If the roughness of the base comes
+ * textures, it is repeated at nodes, for the mean of the texels around each: roughness and specular stay those of the
+ * first match, the roughness of the sheen becomes another one, and the colours of sheen and base are multiplied by gains. If the roughness of the base comes
  * from a texture, it alone is searched at nodes of its own, for the mean of all else. Between nodes of a roughness, a
  * curve is a monotone cubic: Fritsch, Butland, "A Method for Constructing Local Monotone Piecewise Cubic Interpolants",
  * SIAM J. Sci. Stat. Comput. 5(2), 1984; between brightnesses of the sheen it is linear. */
@@ -23,12 +23,25 @@ typedef struct SheenTexel {
     double sheen_gain[3], base_gain[3]; /* factors on the colours */
 } SheenTexel;
 
+/* The mean of the texels around a node. */
+typedef struct NodeMean {
+    double weight; /* 0: there are none, and the node has the numbers of the material's mean */
+    double base_color[3], sheen_color[3], roughness, metallic;
+} NodeMean;
+
+/* A node beside a texel. */
+typedef struct CurvePlace {
+    int row, column;
+    double weight;
+} CurvePlace;
+
 typedef struct MatchCurves {
     /* Set by the caller; brightness is the brightest channel of the sheen's colour. A number whose range is narrow is
      * constant: it has one node, its mean. */
     ValueRange sheen_roughness, brightness, roughness;
     /* Set by curves_begin. */
-    int columns, rows, roughnesses; /* nodes of sheen_roughness, brightness and roughness */
+    int columns, rows, roughnesses;         /* nodes of sheen_roughness, brightness and roughness */
+    NodeMean mean[CURVE_ROWS][CURVE_NODES]; /* set by the caller where the sheen varies */
     /* Set by curves_take, at the nodes. */
     SheenTexel node[CURVE_ROWS][CURVE_NODES];
     double to_roughness[CURVE_NODES];
@@ -43,6 +56,9 @@ typedef struct CurveNode {
 /* Chooses the numbers of nodes. joined: the textures of the sheen's roughness and colour, if there are both, lie at the
  * same place; if not, the brightness counts as constant. */
 void curves_begin(MatchCurves *curves, bool joined);
+
+/* Finds the nodes around a texel, with weights that add up to 1. */
+void curves_around(const MatchCurves *curves, double roughness, double brightness, CurvePlace out[4]);
 
 /* Returns true if a number of the sheen varies. */
 bool curves_vary_sheen(const MatchCurves *curves);

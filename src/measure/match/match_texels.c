@@ -8,6 +8,7 @@
 #include "gltf/asset/material_fields.h"
 #include "image/pixel.h"
 #include "measure/bsdf/halton.h"
+#include "measure/match/match_place.h"
 #include "shading/dialect/tone.h"
 #include "shading/material/choice.h"
 
@@ -63,20 +64,9 @@ typedef struct TexelWork {
 
 static const Input *input_of(const TexelMatch *match, InputId input) { return &match->material->inputs[input]; }
 
-static bool same_place(const Input *a, const Input *b) {
-    bool same = a->texcoord == b->texcoord;
-    for (int k = 0; k < 6; k++) same = same && fabsf(a->transform[k] - b->transform[k]) < 1e-6f;
-    return same;
-}
-
 bool texels_joined(const WeftMaterial *material) {
     const Input *color = &material->inputs[INPUT_sheen_color], *roughness = &material->inputs[INPUT_sheen_roughness];
-    return !color->texture || !roughness->texture || same_place(color, roughness);
-}
-
-/* Returns the input whose texture makes the sheen vary, NULL if it does not. */
-static InputId driver_of(const TexelMatch *match) {
-    return match->curves->columns > 1 ? INPUT_sheen_roughness : INPUT_sheen_color;
+    return !color->texture || !roughness->texture || place_same(color, roughness);
 }
 
 /* Returns the textureInfo of an input in the JSON, NULL if there is none. */
@@ -111,11 +101,11 @@ static bool factor_does(const TexelMatch *match, InputId input, WeftMaterial *to
 static bool edit_needed(const TexelMatch *match, json_t *material, InputId input, WeftMaterial *to, Edit *edit) {
     const bool colored = input_value_count(input) > 1, textured = input_of(match, input)->texture != 0;
     const bool curved = input == INPUT_roughness ? match->curves->roughnesses > 1 : match->curves->columns > 1;
-    json_t *own = info_of(material, input), *driver = info_of(material, driver_of(match));
+    json_t *own = info_of(material, input), *driver = info_of(material, place_driver(match->curves));
     *edit = (Edit){.kind = EDIT_SCALE, .input = input, .info = own, .texture = textured ? index_of(own) : -1};
     if (textured && !own) return false; /* the texture is that of another extension */
     if (colored && driver && curves_gain_varies(match->curves, input == INPUT_base_color) &&
-        (!textured || same_place(input_of(match, input), input_of(match, driver_of(match))))) {
+        (!textured || place_same(input_of(match, input), input_of(match, place_driver(match->curves))))) {
         edit->kind = EDIT_GAIN;
         if (!textured) edit->info = driver;
         return true;
@@ -126,26 +116,18 @@ static bool edit_needed(const TexelMatch *match, json_t *material, InputId input
     return !factor_does(match, input, to);
 }
 
-/* Returns the texture of an input at a place of it; 1 without one. */
-static Texel texel_of(const TexelMatch *match, InputId id, float u, float v) {
-    const Input *input = input_of(match, id);
-    const SrgbTable *srgb = input_value_count(id) > 1 ? &match->scene->srgb : NULL;
-    if (!input->texture) return (Texel){{1.0f, 1.0f, 1.0f, 1.0f}};
-    return texture_fetch(&match->scene->textures[input->texture - 1], match->scene->images, srgb, u, v);
+static Texel texel_of(const TexelMatch *match, InputId input, float u, float v) {
+    return place_texel(match->scene, match->material, input, u, v);
 }
 
-static double scalar_at(const TexelMatch *match, InputId id, float u, float v) {
-    const Input *input = input_of(match, id);
-    return (double)(texel_of(match, id, u, v).c[input->channel] * input->value[0]);
+static double number_at(const TexelMatch *match, InputId input, float u, float v) {
+    return place_number(match->scene, match->material, input, u, v);
 }
 
 /* Computes what becomes of the sheen at a place. */
 static SheenTexel sheen_at(const TexelMatch *match, float u, float v) {
-    const Input *color = input_of(match, INPUT_sheen_color);
-    const Texel texel = texel_of(match, INPUT_sheen_color, u, v);
-    double brightness = 0.0;
-    for (int c = 0; c < 3; c++) brightness = fmax(brightness, (double)(texel.c[c] * color->value[c]));
-    return curves_sheen(match->curves, scalar_at(match, INPUT_sheen_roughness, u, v), brightness);
+    return curves_sheen(match->curves, number_at(match, INPUT_sheen_roughness, u, v),
+                        place_brightness(match->scene, match->material, u, v));
 }
 
 /* Computes the new values of an input at a place. */
@@ -154,7 +136,7 @@ static void values_at(const TexelMatch *match, const Edit *edit, float u, float 
     const int count = input_value_count(edit->input);
     const Texel texel = texel_of(match, edit->input, u, v);
     if (edit->kind == EDIT_CURVE) {
-        const double was = scalar_at(match, edit->input, u, v);
+        const double was = number_at(match, edit->input, u, v);
         out[0] = edit->input == INPUT_roughness ? curves_roughness(match->curves, was)
                                                 : curves_sheen(match->curves, was, 0.0).roughness;
         return;
@@ -186,7 +168,7 @@ static void row_done(TexelWork *self, int y, bool write) {
     const int count = input_value_count(edit->input);
     const float v = ((float)y + 0.5f) / (float)image->height;
     for (int x = 0; x < image->width; x++) {
-        double value[3];
+        double value[3] = {0.0};
         values_at(self->match, edit, ((float)x + 0.5f) / (float)image->width, v, value);
         const size_t pixel = ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels;
         for (int c = 0; c < count; c++) {
@@ -280,7 +262,7 @@ static WeftResult canvas_for(TexelWork *self, Edit *edit, WeftError *error) {
     WeftResult result = WEFT_OK;
     if (edit->canvas < 0) {
         edit->canvas = self->canvas_count++;
-        const InputId shown = edit->texture < 0 ? driver_of(match) : edit->input;
+        const InputId shown = edit->texture < 0 ? place_driver(match->curves) : edit->input;
         const WeftImage *from =
             &match->scene->images[match->scene->textures[input_of(match, shown)->texture - 1].image];
         Canvas *canvas = &self->canvases[edit->canvas];
@@ -360,7 +342,7 @@ static WeftMaterial texel_material(const TexelWork *self, Offer offer, float u, 
         const Edit *edit = offer == OFFER_TEXELS ? edit_of(self, k) : NULL;
         const WeftMaterial *numbers = offer == OFFER_TEXELS ? self->to : match->factors;
         const Texel texel = texel_of(match, (InputId)k, u, v);
-        double value[3];
+        double value[3] = {0.0};
         if (edit) values_at(match, edit, u, v, value);
         for (int c = 0; c < input_value_count((InputId)k); c++) {
             const bool is_number = kind == WEFT_INPUT_COLOR || kind == WEFT_INPUT_SCALAR;
