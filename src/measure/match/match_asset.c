@@ -46,7 +46,7 @@ static Channel channel_of(WeftImage image, int channel, bool color) {
     size_t pixels = (size_t)image.width * (size_t)image.height;
     int at = place_of(channel, image.channels);
     if (at < 0 || pixels == 0) return out;
-    out.range = (ValueRange){INFINITY, -INFINITY};
+    out.range = (ValueRange){(double)INFINITY, -(double)INFINITY};
     for (size_t k = 0; k < pixels; k++) {
         double x = pixel_value(&image, k * (size_t)image.channels + (size_t)at);
         if (color && image.type != WEFT_PIXEL_F32) x = linear_of(x);
@@ -60,7 +60,7 @@ static Channel channel_of(WeftImage image, int channel, bool color) {
 
 /* Returns the range over a texture's pixels of the brightest channel of its colour times a factor. */
 static ValueRange brightness_of(WeftImage image, const float factor[3]) {
-    ValueRange range = {INFINITY, -INFINITY};
+    ValueRange range = {(double)INFINITY, -(double)INFINITY};
     size_t pixels = (size_t)image.width * (size_t)image.height;
     for (size_t k = 0; k < pixels; k++) {
         double most = 0.0;

@@ -233,7 +233,7 @@ bool curves_gain_varies(const MatchCurves *curves, bool base) {
     const double most = 0.005;
     if (!curves_vary_sheen(curves)) return false;
     for (int c = 0; c < 3; c++) {
-        double low = INFINITY, high = -INFINITY;
+        double low = (double)INFINITY, high = -(double)INFINITY;
         for (int r = 0; r < curves->rows; r++)
             for (int k = 0; k < curves->columns; k++) {
                 const SheenTexel *texel = &curves->node[r][k];
