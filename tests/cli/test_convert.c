@@ -116,6 +116,7 @@ static void u3m_is_packed_and_unpacked_unchanged(void **state) {
     assert_string_equal(files[0], files[1]);
     assert_string_equal(files[0], files[2]);
     for (int k = 0; k < 4; k++) free(files[k]);
+    assert_int_equal(system("rm -r back saved"), 0);
     refuses("cloth.u3m", "cloth.png", 2, "cloth.png: a U3M becomes a .u3m or a .u3ma");
     refuses("p.png", "p.u3m", 2, "p.png: is no U3M");
     refuses("none.u3m", "none.u3ma", 3, "none.u3m: cannot be opened");

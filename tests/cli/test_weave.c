@@ -77,8 +77,45 @@ static void impossible_weave_commands_are_errors_of_one_line(void **state) {
     assert_ends(LIST("weave", "float.wif"), 0, "never change sides");
 }
 
+static double number_of(const json_t *json, const char *a, const char *b, const char *c) {
+    json = json_object_get(json_object_get(json, a), b);
+    return json_number_value(c ? json_object_get(json, c) : json);
+}
+
+/* A denim is blue in front and pale behind, and its maps have the millimetres of their sixteen threads. */
+static void bake_writes_a_u3m_of_both_faces(void **state) {
+    (void)state;
+    size_t size;
+    assert_ends(LIST("weave", "twill 3/1; warp 1#26375c; weft 1#d8d4c8; sett 26 18", "--yarn", "cotton,linen", "--bake",
+                     "denim", "--size", "64"),
+                0, "");
+    char *text = file_bytes("denim/cloth.u3m", &size);
+    assert_non_null(text);
+    json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL), *material = json_object_get(root, "material");
+    const json_t *front = json_object_get(json_object_get(material, "front"), "basecolor"),
+                 *back = json_object_get(json_object_get(material, "back"), "basecolor"),
+                 *physics = json_object_get(material, "physics");
+    assert_true(number_of(front, "constant", "b", NULL) > 1.05 * number_of(front, "constant", "r", NULL));
+    assert_true(number_of(back, "constant", "r", NULL) > 1.3 * number_of(front, "constant", "r", NULL));
+    assert_true(number_of(front, "texture", "image", "width") - 160.0 / 26.0 < 1e-4 &&
+                160.0 / 26.0 - number_of(front, "texture", "image", "width") < 1e-4);
+    assert_true(number_of(back, "texture", "image", "height") - 160.0 / 18.0 < 1e-4 &&
+                160.0 / 18.0 - number_of(back, "texture", "image", "height") < 1e-4);
+    const json_t *parts = json_object_get(json_object_get(physics, "composition"), "parts");
+    assert_int_equal(json_array_size(parts), 2);
+    assert_string_equal(json_string_value(json_object_get(json_object_get(physics, "construction"), "type")),
+                        "Twill - right hand (Z)");
+    assert_string_equal(json_string_value(json_object_get(json_array_get(parts, 0), "type")), "Cotton");
+    const double ratio = json_number_value(json_object_get(json_array_get(parts, 0), "ratio"));
+    assert_true(ratio > 0.590 && ratio < 0.592); /* 26 of 44 threads */
+    json_decref(root);
+    free(text);
+    assert_int_equal(system("rm -r denim"), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bake_writes_a_u3m_of_both_faces),
         cmocka_unit_test(json_has_the_properties_of_the_draft),
         cmocka_unit_test(draft_written_in_another_form_reads_as_the_same),
         cmocka_unit_test(impossible_weave_commands_are_errors_of_one_line),

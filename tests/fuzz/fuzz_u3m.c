@@ -1,4 +1,5 @@
-/* fuzz_u3m - the reader of U3M materials: JSON from memory, without pictures, which need a file to lie beside
+/* fuzz_u3m - the reader of U3M materials: JSON from memory, without pictures, which need a file to lie beside, and archives,
+ * which begin with PK
  *
  * Any input must be read or refused with one line; sanitizers watch the rest. What was read must be fit to shade with:
  * finite, and in its hard range. Use the dictionary u3m.dict. */
@@ -33,7 +34,32 @@ static void note(void *user, WeftMessage message, const char *text) {
     demand(text[0] && !strchr(text, '\n'));
 }
 
+/* Reads the .u3m of an archive with its pictures. */
+static void archive_read(const uint8_t *data, size_t size) {
+    const WeftLog log = {.fn = note};
+    U3mArchive *archive;
+    FileBytes bytes = {0};
+    WeftError error;
+    if (u3m_archive_open(data, size, "fuzz", &archive, &error) != WEFT_OK) {
+        demand(error.text[0] && !strchr(error.text, '\n'));
+        return;
+    }
+    MaterialFile file;
+    if (u3m_archive_read(archive, u3m_archive_material(archive), &bytes, &error) == WEFT_OK) {
+        const WeftResult result =
+            u3m_read(bytes.data, bytes.size, "fuzz", &(U3mFiles){"", archive}, &file, &log, &error);
+        demand(result == WEFT_OK || (error.text[0] && !strchr(error.text, '\n')));
+        material_file_free(&file);
+    }
+    free(bytes.data);
+    u3m_archive_close(archive);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    if (size >= 2 && data[0] == 'P' && data[1] == 'K') {
+        archive_read(data, size);
+        return 0;
+    }
     const WeftLog log = {.fn = note};
     MaterialFile file;
     WeftError error;

@@ -140,6 +140,8 @@ static void a_member_that_is_lacking_is_an_error(void **state) {
     const WeftFinding *lacking = weft_doctor_finding(doctor, 0), *strange = weft_doctor_finding(doctor, 1);
     assert_int_equal(lacking->kind, WEFT_FINDING_U3M_MEMBER);
     assert_string_equal(lacking->place, "/material/front/sheen_tint");
+    assert_string_equal(lacking->words,
+                        "front.sheen_tint: it is lacking: readers take their own default, or refuse the file");
     assert_int_equal(strange->kind, WEFT_FINDING_PART_IGNORED);
     assert_non_null(strstr(strange->words, "other_tint"));
     assert_int_not_equal(weft_doctor_fix(doctor, "y.glb", &error), WEFT_OK);

@@ -235,6 +235,10 @@ static void every_number_comes_back_on_both_faces(void **state) {
     text_write("m.json", PRINCIPLED);
     WeftScene *scene = scene_of("builtin:cloth");
     material_assign(scene, "m.json");
+    save(scene, "\xff$.u3ma"); /* a name that no U3M has inside is another there */
+    silence();
+    assert_int_equal(u3m_load("\xff$.u3ma", &file, &counting, &error), WEFT_OK);
+    material_file_free(&file);
     save(scene, "m.u3m");
     if (warnings) fail_msg("%s", said);
     by_the_schema("m.u3m");

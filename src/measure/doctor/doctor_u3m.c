@@ -268,7 +268,7 @@ static void check_visual(const U3mExam *exam, const char *part, const json_t *vi
         snprintf(place, sizeof place, "material/%s/%s", part, field->name);
         if (!member) {
             doctor_found(doctor, WEFT_FINDING_U3M_MEMBER, at(place), 0, (double)NAN, NULL,
-                         "%s lacks it: readers take their own default, or refuse the file", part);
+                         "it is lacking: readers take their own default, or refuse the file");
             doctor_advise(doctor, "write it, with its default where nothing else is meant");
         } else if (has_texture(visual, field->name)) {
             check_texture(exam, field, member, place);
@@ -292,6 +292,17 @@ static void check_members(WeftDoctor *doctor, const json_t *object, const char *
     }
 }
 
+/* Puts the member before the words of findings about one, "front.roughness: ", as the reader has it. */
+static void members_say(WeftDoctor *doctor) {
+    for (int k = 0; k < doctor->count; k++) {
+        WeftFinding *finding = &doctor->items[k];
+        char part[16], member[40], words[sizeof finding->words];
+        if (sscanf(finding->place, "/material/%15[^/]/%39s", part, member) != 2) continue;
+        memcpy(words, finding->words, sizeof words);
+        snprintf(finding->words, sizeof finding->words, "%s.%s: %.320s", part, member, words);
+    }
+}
+
 static void examine(U3mExam *exam, const json_t *root) {
     static const char *const parts[] = {"front", "back", "side"}, *const top[] = {"schema", "material", "custom", NULL},
                              *const needed[] = {"id",   "name", "description", "created",  "modified", "front",
@@ -303,6 +314,7 @@ static void examine(U3mExam *exam, const json_t *root) {
         const json_t *visual = json_object_get(material, parts[k]);
         if (json_is_object(visual)) check_visual(exam, parts[k], visual);
     }
+    members_say(exam->doctor);
 }
 
 /* Opens the archive of an exam, where the file is one, and sets the folder of its .u3m. */

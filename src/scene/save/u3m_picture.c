@@ -131,7 +131,7 @@ static void stem_write(const char *path, const char *name, char stem[128]) {
     const int length = dot ? (int)(dot - base) : (int)strlen(base);
     snprintf(stem, 128, "textures/%.*s-%s", length < 48 ? length : 48, base, name);
     for (char *c = stem; *c; c++)
-        if ((unsigned char)*c < 0x20 || strchr("<>:\"\\|$%~?*", *c)) *c = '_';
+        if ((unsigned char)*c < 0x20 || (unsigned char)*c > 0x7e || strchr("<>:\"\\|$%~?*", *c)) *c = '_';
 }
 
 static WeftResult picture_make(U3mPictures *pictures, U3mPicture *picture, const Texture *texture, const char *name) {

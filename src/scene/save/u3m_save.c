@@ -284,9 +284,12 @@ static json_t *document_make(const U3mWriter *w, const char *now) {
     char id[40], name[128];
     snprintf(name, sizeof name, "%.*s", dot ? (int)(dot - base) : (int)strlen(base), base);
     id_write(w->scene->material_names[w->index], base, id);
+    json_t *utf8 = json_string(name); /* NULL: the name of the file is none */
+    if (!utf8 || !name[0]) snprintf(name, sizeof name, "cloth");
+    json_decref(utf8);
     return json_pack("{s:s, s:n, s:{s:s, s:s, s:s, s:s, s:s, s:n, s:n, s:n, s:n}}", "schema", "1.1", "custom",
-                     "material", "id", id, "name", name[0] ? name : "cloth", "description", "", "created", now,
-                     "modified", now, "front", "back", "side", "metadata");
+                     "material", "id", id, "name", name, "description", "", "created", now, "modified", now, "front",
+                     "back", "side", "metadata");
 }
 
 static void document_begin(U3mWriter *w, const char *now) {

@@ -1,5 +1,6 @@
 #include "scene/u3m/u3m_package.h"
 
+#include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -175,7 +176,9 @@ static FileBytes zip_bytes(zip_source_t *source) {
 static void name_inside(const char *path, char name[256]) {
     const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
     snprintf(name, 256, "%.*s.u3m", dot ? (int)(dot - base) : (int)strlen(base), base);
-    if (strlen(name) > 255 || !u3m_path_inside(name)) snprintf(name, 256, "material.u3m");
+    json_t *utf8 = json_string(name);
+    if (!utf8 || !path_ends(name, ".u3m") || !u3m_path_inside(name)) snprintf(name, 256, "material.u3m");
+    json_decref(utf8);
 }
 
 static WeftResult write_archive(const U3mPackage *package, const void *text, size_t size, WeftError *error) {
