@@ -1,4 +1,5 @@
-/* export.h - a shading model as text for an engine: GLSL, HLSL, WGSL, C or a Shadertoy, with its tables
+/* export.h - a shading model as text for an engine: GLSL, HLSL, WGSL, C, a Shadertoy, or a file of Godot, Unity or Unreal,
+ * with its tables
  *
  *   WeftExport text;
  *   weft_export(&(WeftExportDesc){.lobe = &lobe, .target = WEFT_EXPORT_HLSL}, &text, &error);
@@ -33,17 +34,21 @@ typedef enum WeftExportTarget {
     WEFT_EXPORT_C,         /* one header, C99 and C++, that includes nothing but math.h and stdbool.h */
     WEFT_EXPORT_SHADERTOY, /* one whole shader: a ball, the mouse moves roughness and light */
     WEFT_EXPORT_WGSL,      /* for WebGPU: tables are textures of its bind group 0 */
+    WEFT_EXPORT_GODOT,     /* a .gdshaderinc of Godot 4: tables are uniforms without filter */
+    WEFT_EXPORT_UNITY,     /* HLSL for a Custom Function node, with void ID_float and ID_half for its file */
+    WEFT_EXPORT_UNREAL,    /* a .ush for a Custom node; of it and UNITY, tables up to 4,096 texels are in the text */
     WEFT_EXPORT_TARGETS
 } WeftExportTarget;
 
-/* Returns "glsl", "essl", "hlsl", "c", "shadertoy" or "wgsl", and a line on each; NULL past the end. */
+/* Returns "glsl", "essl", "hlsl", "c", "shadertoy", "wgsl", "godot", "unity" or "unreal", and a line on each; NULL past
+ * the end. */
 WEFT_API const char *weft_export_target_name(int target);
 WEFT_API const char *weft_export_target_help(int target);
 
 /* The form in which tables reach the program. Only PNG16 changes their numbers. */
 typedef enum WeftExportLut {
-    WEFT_EXPORT_LUT_C = 0, /* arrays of C; inside the text of targets C and SHADERTOY, and of WGSL up to 2,047
-                              texels, the longest array expression there */
+    WEFT_EXPORT_LUT_C = 0, /* arrays of C; inside the text of targets C and SHADERTOY, of WGSL up to 2,047
+                              texels, the longest array expression there, and of UNITY and UNREAL up to 4,096 */
     WEFT_EXPORT_LUT_PNG16, /* 16 bits; the text multiplies by a power of two and adds an offset */
     WEFT_EXPORT_LUT_EXR,
     WEFT_EXPORT_LUT_DDS,

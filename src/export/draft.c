@@ -12,8 +12,9 @@
 
 void draft_begin(Draft *draft, const WeftExportDesc *desc, DraftTables *tables) {
     static const SpellLanguage languages[WEFT_EXPORT_TARGETS] = {
-        [WEFT_EXPORT_GLSL] = SPELL_GLSL, [WEFT_EXPORT_ESSL] = SPELL_GLSL,      [WEFT_EXPORT_HLSL] = SPELL_HLSL,
-        [WEFT_EXPORT_C] = SPELL_C,       [WEFT_EXPORT_SHADERTOY] = SPELL_GLSL, [WEFT_EXPORT_WGSL] = SPELL_WGSL,
+        [WEFT_EXPORT_GLSL] = SPELL_GLSL,  [WEFT_EXPORT_ESSL] = SPELL_GLSL,      [WEFT_EXPORT_HLSL] = SPELL_HLSL,
+        [WEFT_EXPORT_C] = SPELL_C,        [WEFT_EXPORT_SHADERTOY] = SPELL_GLSL, [WEFT_EXPORT_WGSL] = SPELL_WGSL,
+        [WEFT_EXPORT_GODOT] = SPELL_GLSL, [WEFT_EXPORT_UNITY] = SPELL_HLSL,     [WEFT_EXPORT_UNREAL] = SPELL_HLSL,
     };
     *draft = (Draft){.desc = desc, .speller.language = languages[desc->target], .whole = {"Dir", "Rgb"}};
     const char *usual = desc->target == WEFT_EXPORT_C ? "weftx_" : "weft_"; /* weft.h, beside a text in C, has weft_ */

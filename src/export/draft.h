@@ -82,6 +82,13 @@ void drafts_merge(Draft *drafts, int count);
 /* Writes the items: first those that several drafts share or only one has, then each draft's own. */
 void drafts_spell(Draft *drafts, int count, Buffer *out);
 
+/* Returns true if the target's language is HLSL. */
+static inline bool draft_is_hlsl(const Draft *draft) { return draft->speller.language == SPELL_HLSL; }
+
+/* Writes the functions that a Custom Function node of Unity calls, in both precisions: of a lobe, color times f times the
+ * cosine; of a material, its f times the cosine for the inputs that the text reads. */
+void draft_unity(const Draft *draft, Buffer *out);
+
 /* Writes the ball and its light behind the functions of a Shadertoy. */
 void draft_ball(const Draft *draft, Buffer *out);
 

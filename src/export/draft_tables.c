@@ -9,12 +9,17 @@
 /* The most elements of a WGSL array expression: "WebGPU Shading Language", section 2.3. */
 enum { WGSL_ARRAY = 2047 };
 
+/* The most elements of an indexed array of constants in Direct3D 11: the size of its immediate constant buffer. */
+enum { HLSL_ARRAY = 4096 };
+
 static bool in_text(const Draft *draft, int k) {
     const TextTable *t = &draft->tables->all[k];
     const WeftExportTarget target = draft->desc->target;
     if (target == WEFT_EXPORT_SHADERTOY) return true;
     if (draft->desc->lut != WEFT_EXPORT_LUT_C) return false;
-    return target == WEFT_EXPORT_C || (target == WEFT_EXPORT_WGSL && t->rows * t->columns <= WGSL_ARRAY);
+    const bool engine = target == WEFT_EXPORT_UNITY || target == WEFT_EXPORT_UNREAL;
+    return target == WEFT_EXPORT_C || (target == WEFT_EXPORT_WGSL && t->rows * t->columns <= WGSL_ARRAY) ||
+           (engine && t->rows * t->columns <= HLSL_ARRAY);
 }
 
 static char *table_name(const Draft *draft, int k, char name[SPELL_NAME]) {
@@ -61,15 +66,15 @@ static void put_numbers(const TextTable *t, const char *suffix, Buffer *out) {
 /* Writes a table inside the text. */
 static void put_array(const Draft *draft, const TextTable *t, const char *name, Buffer *out) {
     int size = t->rows * t->columns;
-    bool c = draft->desc->target == WEFT_EXPORT_C;
-    if (c)
+    bool c = draft->desc->target == WEFT_EXPORT_C, braces = c || draft_is_hlsl(draft);
+    if (braces)
         put_line(out, "static const float %s[%d] = {", name, size);
     else if (draft->desc->target == WEFT_EXPORT_WGSL)
         put_line(out, "const %s = array<f32, %d>(", name, size);
     else
         put_line(out, "const float %s[%d] = float[%d](", name, size, size);
     put_numbers(t, c ? "f" : "", out);
-    put_line(out, c ? "};" : ");");
+    put_line(out, braces ? "};" : ");");
 }
 
 /* Returns the index of a table among those outside the text. */
@@ -88,8 +93,10 @@ static void put_declaration(const Draft *draft, int k, Buffer *out) {
         put_array(draft, t, name, out);
     else if (draft->desc->target == WEFT_EXPORT_C)
         put_line(out, "static const float *%s = 0; /* set it before the first call */", name);
-    else if (draft->desc->target == WEFT_EXPORT_HLSL)
+    else if (draft_is_hlsl(draft))
         put_line(out, "Texture2D<float> %s;", name);
+    else if (draft->desc->target == WEFT_EXPORT_GODOT)
+        put_line(out, "uniform sampler2D %s : filter_nearest, repeat_disable;", name);
     else if (draft->desc->target == WEFT_EXPORT_WGSL)
         put_line(out, "@group(0) @binding(%d) var %s: texture_2d<f32>;", binding_of(draft, k), name);
     else
@@ -102,7 +109,7 @@ static void put_texel(const Draft *draft, int k, Buffer *out) {
     buffer_put_text(out, table_name(draft, k, name));
     if (in_text(draft, k) || draft->desc->target == WEFT_EXPORT_C)
         buffer_put_text(out, "[row * stride + column]");
-    else if (draft->desc->target == WEFT_EXPORT_HLSL)
+    else if (draft_is_hlsl(draft))
         buffer_put_text(out, ".Load(int3(column, row, 0))");
     else if (draft->desc->target == WEFT_EXPORT_WGSL)
         buffer_put_text(out, ", vec2i(column, row), 0).r");
@@ -119,7 +126,7 @@ static void put_fetch(const Draft *draft, int k, bool last, Buffer *out) {
     snprintf(line, sizeof line, "    if (t == %d) %s", k, wgsl ? "{ " : "");
     buffer_put_text(out, last ? "    " : line);
     buffer_put_text(out, "return ");
-    if (beside && target != WEFT_EXPORT_C && target != WEFT_EXPORT_HLSL)
+    if (beside && target != WEFT_EXPORT_C && !draft_is_hlsl(draft))
         buffer_put_text(out, wgsl ? "textureLoad(" : "texelFetch(");
     put_texel(draft, k, out);
     if (range.scale > 1.0f || range.offset < 0.0f) {

@@ -7,7 +7,8 @@
 #include "base/memory.h"
 #include "export/draft.h"
 
-static const char *const targets[WEFT_EXPORT_TARGETS + 1] = {"glsl", "essl", "hlsl", "c", "shadertoy", "wgsl", NULL};
+static const char *const targets[WEFT_EXPORT_TARGETS + 1] = {"glsl", "essl",  "hlsl",  "c",      "shadertoy",
+                                                             "wgsl", "godot", "unity", "unreal", NULL};
 static const char *const helps[WEFT_EXPORT_TARGETS] = {
     "functions for GLSL 3.30 core and later",
     "functions for GLSL ES 3.00: OpenGL ES 3, WebGL 2",
@@ -15,6 +16,9 @@ static const char *const helps[WEFT_EXPORT_TARGETS] = {
     "one header for C99 and C++ that stands alone",
     "a complete shader to paste: a ball, the mouse moves roughness and light",
     "functions for WGSL: WebGPU in browsers, and wgpu and Dawn outside",
+    "a .gdshaderinc for Godot 4, to be included by a shader",
+    "a .hlsl for Unity's Custom Function node: void NAME_float and NAME_half",
+    "a .ush for Unreal's Custom node or a shading model",
 };
 static const char *const luts[WEFT_EXPORT_LUTS + 1] = {"c", "png16", "exr", "dds", "npy", NULL};
 
@@ -80,15 +84,19 @@ static WeftResult make_draft(Draft *draft, WeftError *error) {
     return result == WEFT_OK ? draft_cut(draft, error) : result;
 }
 
-/* Writes the include guard of C, with the headers that it needs. */
+/* Writes what keeps a text from being included twice: the guard of C, with the headers that it needs, and of Unity's
+ * HLSL; Unreal's texts have #pragma once. */
 static void put_guard(const Draft *draft, bool open, Buffer *out) {
     char name[SPELL_NAME], bare[DRAFT_ID + 8];
-    if (draft->desc->target != WEFT_EXPORT_C) return;
+    const WeftExportTarget target = draft->desc->target;
+    if (target == WEFT_EXPORT_UNREAL && open) put_line(out, "#pragma once\n");
+    if (target != WEFT_EXPORT_C && target != WEFT_EXPORT_UNITY) return;
     snprintf(bare, sizeof bare, "%s_H", draft->id[0]);
     spell_name(&draft->speller, ITEM_CONSTANT, bare, name);
     for (char *c = name; *c; c++) *c = (char)(*c >= 'a' && *c <= 'z' ? *c - 'a' + 'A' : *c);
     if (open)
-        put_line(out, "#ifndef %s\n#define %s\n\n#include <math.h>\n#include <stdbool.h>\n", name, name);
+        put_line(out, "#ifndef %s\n#define %s\n%s", name, name,
+                 target == WEFT_EXPORT_C ? "\n#include <math.h>\n#include <stdbool.h>\n" : "");
     else
         put_line(out, "\n#endif");
 }
@@ -108,6 +116,7 @@ static void put_all(Draft *drafts, int count, const WeftExport *uploads, Buffer 
     spell_helpers(&drafts->speller, texts, count, out);
     drafts_spell(drafts, count, out);
     if (drafts->desc->target == WEFT_EXPORT_SHADERTOY) draft_ball(drafts, out);
+    for (int d = 0; d < count && drafts->desc->target == WEFT_EXPORT_UNITY; d++) draft_unity(&drafts[d], out);
     put_guard(drafts, false, out);
 }
 

@@ -7,7 +7,7 @@
 /* Returns the target's type for a direction. */
 static const char *vector(const Draft *draft) {
     if (draft->desc->target == WEFT_EXPORT_WGSL) return "vec3f";
-    return draft->desc->target == WEFT_EXPORT_HLSL ? "float3" : "vec3";
+    return draft_is_hlsl(draft) ? "float3" : "vec3";
 }
 
 /* Returns the qualifier that declares a variable of that type. */
@@ -90,9 +90,7 @@ static void put_call(const Draft *draft, Buffer *out) {
     if (desc->albedo) put_line(out, " *   %s e = %s(m, wo.z);", word(draft, "float"), function(draft, "albedo", a));
 }
 
-static void put_engines(const Draft *draft, Buffer *out) {
-    char name[SPELL_NAME];
-    function(draft, draft->desc->lobe ? "eval" : "shade", name);
+static void put_unreal(const Draft *draft, const char *name, Buffer *out) {
     put_line(out, " *\n * Unreal: save this as Shaders/%s.ush of a plugin or project and map that folder with",
              draft->id[0]);
     put_line(out, " * AddShaderSourceDirectoryMapping. In a Custom node put /Project/%s.ush in Include File Paths and",
@@ -101,12 +99,47 @@ static void put_engines(const Draft *draft, Buffer *out) {
     put_line(out, " * ShadingModels.ush and call it in its BxDF with V and L turned into the frame of "
                   "GBuffer.WorldNormal:");
     put_line(out, " * Unreal's lights are explicit. Its x is GBuffer.WorldTangent.");
+}
+
+static void put_unity(const Draft *draft, const char *name, Buffer *out) {
     put_line(out, " *\n * Unity: save this as %s.hlsl below Assets. Shader Graph: a Custom Function node of type File",
              draft->id[0]);
     put_line(out, " * whose function, void Name_float(..., out float3 Out), calls %s; behind an", name);
     put_line(out, " * #include of this file. HDRP, URP: include it behind Lighting.hlsl and add it to the "
                   "loop over lights.");
     put_line(out, " * HDRP's lights are explicit; URP's and the built-in pipeline's are folded.");
+}
+
+/* Says how a Custom Function node takes the text, which has its functions. */
+static void put_node(const Draft *draft, Buffer *out) {
+    char name[SPELL_NAME];
+    put_line(out, " *\n * Unity: save this as %s.hlsl below Assets. Shader Graph: a Custom Function node of type File,",
+             draft->id[0]);
+    put_line(out, " * this file as its source, name %s, inputs and outputs as of %s_float at the end.",
+             spell_name(&draft->speller, ITEM_FUNCTION, draft->id[0], name), name);
+    put_line(out, " * HDRP's lights are explicit; URP's and the built-in pipeline's are folded.");
+}
+
+static void put_godot(const Draft *draft, const char *name, Buffer *out) {
+    put_line(out,
+             " *\n * Godot 4: save this as %s.gdshaderinc beside a shader of type spatial and include it there. In its",
+             draft->id[0]);
+    put_line(out, " * light() turn VIEW and LIGHT into the frame of NORMAL and a tangent that a varying brings, call");
+    put_line(out, " * %s and add the result times LIGHT_COLOR times ATTENUATION to SPECULAR_LIGHT, which", name);
+    put_line(out,
+             " * ALBEDO does not multiply. LIGHT_COLOR has a factor of pi: export with --light-pi explicit. Set the");
+    put_line(out, " * tables as parameters of the material.");
+}
+
+/* Says how engines take the text. */
+static void put_engines(const Draft *draft, Buffer *out) {
+    char name[SPELL_NAME];
+    const WeftExportTarget target = draft->desc->target;
+    function(draft, draft->desc->lobe ? "eval" : "shade", name);
+    if (target == WEFT_EXPORT_HLSL || target == WEFT_EXPORT_UNREAL) put_unreal(draft, name, out);
+    if (target == WEFT_EXPORT_HLSL) put_unity(draft, name, out);
+    if (target == WEFT_EXPORT_UNITY) put_node(draft, out);
+    if (target == WEFT_EXPORT_GODOT) put_godot(draft, name, out);
 }
 
 static void put_tables(const WeftExport *uploads, bool bound, Buffer *out) {
@@ -146,6 +179,9 @@ void drafts_head(const Draft *drafts, int count, const WeftExport *uploads, Buff
         "C99 and C++",
         "Shadertoy: paste all of it into a new shader",
         "WGSL, the language of WebGPU",
+        "Godot 4: a .gdshaderinc",
+        "Unity: HLSL for a Custom Function node",
+        "Unreal: a .ush",
     };
     buffer_put_text(out, "/* ");
     for (int k = 0; k < count; k++) {
@@ -159,7 +195,7 @@ void drafts_head(const Draft *drafts, int count, const WeftExport *uploads, Buff
     put_line(out, " * Copyright (c) 2026 The weft maintainers");
     put_conventions(drafts, out);
     for (int k = 0; k < count; k++) put_call(&drafts[k], out);
-    if (drafts->desc->target == WEFT_EXPORT_HLSL) put_engines(drafts, out);
+    put_engines(drafts, out);
     put_tables(uploads, drafts->desc->target == WEFT_EXPORT_WGSL, out);
     put_line(out, " */");
 }

@@ -405,11 +405,100 @@ static void export_descriptors_without_sense_are_refused(void **state) {
     weft_export_free(NULL);
 }
 
+/* Each line of a text that begins so. */
+static int count_lines(const char *text, const char *begin) {
+    int count = strncmp(text, begin, strlen(begin)) == 0;
+    for (const char *c = text; (c = strchr(c, '\n')); c++) count += strncmp(c + 1, begin, strlen(begin)) == 0;
+    return count;
+}
+
+static void assert_has(const char *id, const char *text, const char *wanted) {
+    if (!strstr(text, wanted)) fail_msg("%s: no \"%s\"", id, wanted);
+}
+
+/* The files of engines have what those ask for: names, guards, uniforms; and their tables are where they can be read. */
+static void texts_of_engines_are_laid_out_as_these_load_them(void **state) {
+    (void)state;
+    WeftLobe fuzz, ggx;
+    WeftError error;
+    assert_int_equal(weft_lobe_init("ltc-fibre", &fuzz, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("ggx", &ggx, NULL), WEFT_OK);
+    const WeftExportDesc descs[] = {{.lobe = &fuzz}, {.lobe = &ggx}, {.profile = "khronos"}};
+    static const char *const names[] = {"weft_ltc_fibre", "weft_ggx", "weft_khronos"};
+    for (size_t k = 0; k < sizeof descs / sizeof *descs; k++) {
+        WeftExportDesc desc = descs[k];
+        WeftExport made;
+        char wanted[96];
+        desc.target = WEFT_EXPORT_UNITY;
+        assert_int_equal(weft_export(&desc, &made, &error), WEFT_OK);
+        snprintf(wanted, sizeof wanted, "\nvoid %s_float(\n", names[k]);
+        assert_has(names[k], made.text, wanted);
+        snprintf(wanted, sizeof wanted, "\nvoid %s_half(\n", names[k]);
+        assert_has(names[k], made.text, wanted);
+        assert_has(names[k], made.text, "float3 Wo, float3 Wi, out float3 Out)");
+        if (desc.profile) assert_has(names[k], made.text, "    float3 SheenColor,\n    float SheenRoughness,\n");
+        assert_int_equal(count_lines(made.text, "#ifndef "), 1);
+        assert_int_equal(count_lines(made.text, "#endif"), 1);
+        assert_int_equal(made.table_count, 0);
+        weft_export_free(&made);
+        desc.target = WEFT_EXPORT_UNREAL;
+        assert_int_equal(weft_export(&desc, &made, &error), WEFT_OK);
+        assert_int_equal(count_lines(made.text, "#pragma once"), 1);
+        assert_null(strstr(made.text, "Texture2D")); /* which a Custom node could not bind */
+        assert_int_equal(made.table_count, 0);
+        weft_export_free(&made);
+        desc.target = WEFT_EXPORT_GODOT;
+        assert_int_equal(weft_export(&desc, &made, &error), WEFT_OK);
+        char *code = code_of(made.text);
+        assert_null(strchr(code, '#'));
+        assert_null(strstr(code, "highp"));
+        int uniforms = 0;
+        for (const char *c = code; (c = strstr(c, "uniform ")); c++) uniforms++;
+        assert_int_equal(uniforms, made.table_count);
+        if (uniforms) assert_has(names[k], code, " : filter_nearest, repeat_disable;");
+        free(code);
+        weft_export_free(&made);
+    }
+}
+
+/* Compiles a text that has no entry of its own. Godot's language is that of GLSL ES 3.00 but for hints of uniforms. */
+static void compile(const char *text, WeftExportTarget target) {
+    static const char hint[] = " : filter_nearest, repeat_disable";
+    FILE *file = fopen("text.frag", "w");
+    assert_non_null(file);
+    if (target == WEFT_EXPORT_GODOT) fprintf(file, "#version 300 es\nprecision highp float;\n");
+    for (const char *c = text; *c; c++) {
+        if (target == WEFT_EXPORT_GODOT && strncmp(c, hint, sizeof hint - 1) == 0) c += sizeof hint - 1;
+        fputc(*c, file);
+    }
+    fprintf(file, target == WEFT_EXPORT_GODOT ? "out vec4 pixel;\nvoid main() { pixel = vec4(1.0); }\n"
+                                              : "\nfloat4 main() : SV_Target { return 1.0; }\n");
+    assert_int_equal(fclose(file), 0);
+    const char *command = target == WEFT_EXPORT_GODOT
+                              ? "glslangValidator -S frag text.frag >log 2>&1"
+                              : "glslangValidator -D -V -e main -S frag text.frag -o t.spv >log 2>&1";
+    if (system(command) != 0) fail_msg("%s: %s", weft_export_target_name((int)target), command);
+}
+
+static void texts_of_engines_compile(void **state) {
+    (void)state;
+    static const WeftExportTarget targets[] = {WEFT_EXPORT_GODOT, WEFT_EXPORT_UNITY, WEFT_EXPORT_UNREAL};
+    char folder[SCRATCH_SIZE];
+    if (system("command -v glslangValidator >/dev/null 2>&1") != 0) skip();
+    assert_true(scratch_enter(folder));
+    for (int k = 0; k < model_count; k++)
+        for (size_t t = 0; t < sizeof targets / sizeof *targets; t++)
+            if (k % (models[k].is_lobe ? 5 : 16) == 0) compile(text_of(k, (int)targets[t])->text, targets[t]);
+    assert_true(chdir("/") == 0 && scratch_remove(folder));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exported_text_has_no_macro_or_include),
         cmocka_unit_test(exported_text_has_no_unused_function),
         cmocka_unit_test(exported_text_uses_operators_of_its_language),
+        cmocka_unit_test(texts_of_engines_are_laid_out_as_these_load_them),
+        cmocka_unit_test(texts_of_engines_compile),
         cmocka_unit_test(records_nest_as_webgl_takes_them),
         cmocka_unit_test(folded_and_explicit_pi_agree),
         cmocka_unit_test(several_models_share_one_text),

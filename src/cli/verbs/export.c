@@ -82,7 +82,8 @@ static int export_read(const Options *options, Export *self) {
     for (int k = 0; k < WEFT_EXPORT_TARGETS; k++) targets[k] = weft_export_target_name(k);
     for (int k = 0; k < WEFT_EXPORT_LUTS; k++) luts[k] = weft_export_lut_name(k);
     if (!option_text(options, "--target"))
-        return report(WEFT_USAGE, "export: needs --target glsl, essl, hlsl, wgsl, c or shadertoy");
+        return report(WEFT_USAGE,
+                      "export: needs --target glsl, essl, hlsl, wgsl, c, shadertoy, godot, unity or unreal");
     if (!option_text(options, "-o")) return report(WEFT_USAGE, "export: needs -o FILE");
     if (!option_choice(options, "--target", targets, &target) || !option_choice(options, "--light-pi", pis, &pi))
         return WEFT_USAGE;
@@ -167,7 +168,7 @@ static const Option export_options[] = {
 const Verb verb_export = {
     .name = "export",
     .operands = "MODEL... --target TARGET -o FILE [options]",
-    .help = "writes a model as GLSL, HLSL, WGSL, C or a Shadertoy",
+    .help = "writes a model as GLSL, HLSL, WGSL, C or a Shadertoy, or for Godot, Unity or Unreal",
     .operands_least = 1,
     .operands_most = WEFT_EXPORT_MODELS_MAX,
     .options = export_options,
@@ -181,6 +182,8 @@ const Verb verb_export = {
              "Examples\n"
              "  weft export charlie-neubelt:alpha=0.3 --target hlsl -o charlie.ush\n"
              "  weft export ltc-fibre --target glsl --lut dds -o fuzz.glsl\n"
+             "  weft export ltc-fibre --target unity -o fuzz.hlsl\n"
+             "  weft export charlie-conty-kulla --target godot -o charlie.gdshaderinc\n"
              "  weft export velvet --target c -o velvet.h\n"
              "  weft export ggx charlie-neubelt khronos --target glsl -o cloth.glsl\n"
              "  weft export chair.gltf:fabric --target essl --light-pi folded -o chair.glsl\n"
