@@ -228,6 +228,38 @@ static void asset_keeps_all_that_the_target_reads(void **state) {
     folder_clear("asset");
 }
 
+static void unlit_material_keeps_its_color(void **state) {
+    (void)state;
+    char text[1024];
+    snprintf(text, sizeof text, "%s,\"KHR_materials_unlit\":{}", everything);
+    asset_make(text);
+    delivered(LIST("deliver", "asset.gltf", "--to", "core", "-o", "flat", "--width", "32", "--spp", "1"));
+    json_t *root = glb_json("flat/asset-core.glb");
+    const json_t *material = json_array_get(json_object_get(root, "materials"), 0);
+    const json_t *color = json_object_get(json_object_get(material, "pbrMetallicRoughness"), "baseColorFactor");
+    assert_non_null(part(material, "KHR_materials_unlit"));
+    assert_true(fabs(json_number_value(json_array_get(color, 0)) - 0.5) < 1e-6);
+    assert_true(fabs(json_number_value(json_array_get(color, 1)) - 0.1) < 1e-6);
+    json_decref(root);
+    folder_clear("flat");
+}
+
+/* A scene that was saved with its threads has them as textures. */
+static void woven_asset_is_baked(void **state) {
+    (void)state;
+    delivered(LIST("render", "builtin:bend", "--preset", "woven-poplin", "--save", "woven.glb"));
+    delivered(
+        LIST("deliver", "woven.glb", "--to", "three", "-o", "baked", "--size", "128", "--width", "48", "--spp", "4"));
+    json_t *root = glb_json("baked/woven-three.glb"), *summary = json_of("baked/woven.json");
+    assert_true(json_array_size(json_object_get(root, "images")) >= 3);
+    assert_string_equal(json_string_value(json_object_get(summary, "reference")), "its threads");
+    const json_t *errors = json_object_get(target_of(summary, "three"), "errors");
+    assert_true(number(json_object_get(errors, "far"), "mean_color") < 0.3);
+    json_decref(root);
+    json_decref(summary);
+    folder_clear("baked");
+}
+
 static void senseless_delivery_is_refused(void **state) {
     (void)state;
     asset_make("\"KHR_materials_pbrSpecularGlossiness\":{\"glossinessFactor\":0.5}");
@@ -290,8 +322,12 @@ static void interrupted_delivery_leaves_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draft_is_delivered_to_every_target),    cmocka_unit_test(material_is_delivered_near_the_truth),
-        cmocka_unit_test(asset_keeps_all_that_the_target_reads), cmocka_unit_test(senseless_delivery_is_refused),
+        cmocka_unit_test(draft_is_delivered_to_every_target),
+        cmocka_unit_test(material_is_delivered_near_the_truth),
+        cmocka_unit_test(asset_keeps_all_that_the_target_reads),
+        cmocka_unit_test(unlit_material_keeps_its_color),
+        cmocka_unit_test(woven_asset_is_baked),
+        cmocka_unit_test(senseless_delivery_is_refused),
         cmocka_unit_test(interrupted_delivery_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);

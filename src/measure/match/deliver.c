@@ -177,6 +177,11 @@ static WeftResult parcel_level(Parcel *parcel, WeftError *error) {
     return WEFT_OK;
 }
 
+/* Returns true if the factors of a material are searched: what is unlit reflects nothing. */
+static bool is_due(const Delivering *self, const Parcel *parcel) {
+    return !parcel->source.unlit && (parcel->limited || self->from < 0);
+}
+
 /* Returns true if a target shows no rim at all. */
 static bool is_bare(const Delivering *self) { return strcmp(weft_profile_name(self->profile), "core") == 0; }
 
@@ -190,10 +195,11 @@ static WeftResult parcel_match(Delivering *self, int k, ItemProgress *item_progr
     lock_rest(locked);
     weft_material_choose(&plain, CHOICE_profile, self->profile);
     WeftResult result = weft_reflection_create(&parcel->source, &parcel->original, error);
-    if (result == WEFT_OK && (parcel->limited || self->from < 0))
+    const bool due = is_due(self, parcel);
+    if (result == WEFT_OK && due)
         result = match_material(parcel->original, self->metric, locked, item_progress, &parcel->written,
                                 &delivered->found, error);
-    if (result == WEFT_OK && parcel->limited && is_bare(self)) result = parcel_level(parcel, error);
+    if (result == WEFT_OK && due && parcel->limited && is_bare(self)) result = parcel_level(parcel, error);
     parcel_clip(parcel);
     if (result == WEFT_OK) result = weft_reflection_create(&plain, &copy, error);
     if (result == WEFT_OK) result = weft_reflection_create(&parcel->written, &now, error);
@@ -293,7 +299,7 @@ static WeftResult file_finish(Delivering *self, WeftDelivery *delivery, WeftErro
         json_t *materials = json_object_get(rewrite.root, "materials");
         for (int k = 0; k < self->count; k++) {
             json_t *material = json_array_get(materials, (size_t)k);
-            if (material && (self->parcels[k].limited || self->from < 0)) parcel_write(&self->parcels[k], material);
+            if (material && is_due(self, &self->parcels[k])) parcel_write(&self->parcels[k], material);
         }
         delivery->extensions = extensions_text(rewrite.root);
         delivery->lost = viewer_losses_text(&self->losses, self->count);
