@@ -416,8 +416,45 @@ static void a_weave_tells_its_construction(void **state) {
     assert_true(chdir("/") == 0 && scratch_remove(folder));
 }
 
+/* A file with a wrong character that is read all the same is written, and examined, and read again. */
+static void damaged_files_that_are_read_are_written(void **state) {
+    enum { ROUNDS = 300 };
+    (void)state;
+    char folder[SCRATCH_SIZE];
+    WeftError error;
+    unsigned seed = 7;
+    int written = 0;
+    assert_true(scratch_enter(folder));
+    strange_write();
+    FileBytes bytes = bytes_of("x.u3m");
+    WeftScene *scene = scene_of("builtin:cloth");
+    for (int k = 0; k < ROUNDS; k++) {
+        seed = seed * 1664525u + 1013904223u;
+        const size_t at = (seed >> 8) % bytes.size;
+        const unsigned char was = bytes.data[at];
+        bytes.data[at] = (unsigned char)"\"{}[],:0e-xn"[(seed >> 4) % 12];
+        text_write("d.u3m", (char *)bytes.data);
+        bytes.data[at] = was;
+        WeftDoctor *doctor;
+        const WeftResult read = weft_scene_assign_material(scene, "0", "d.u3m", NULL, &error);
+        if (weft_doctor_open("d.u3m", &doctor, NULL, &error) == WEFT_OK) {
+            assert_int_equal(read, WEFT_OK);
+            weft_doctor_close(doctor);
+        }
+        if (read != WEFT_OK) continue;
+        save(scene, "y.u3ma");
+        if (weft_scene_assign_material(scene, "0", "y.u3ma", NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+        written++;
+    }
+    assert_true(written > ROUNDS / 10);
+    free(bytes.data);
+    weft_scene_free(scene);
+    assert_true(chdir("/") == 0 && scratch_remove(folder));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(damaged_files_that_are_read_are_written),
         cmocka_unit_test(members_that_did_not_change_are_written_byte_for_byte),
         cmocka_unit_test(only_what_changed_is_replaced),
         cmocka_unit_test(every_number_comes_back_on_both_faces),
