@@ -5,7 +5,7 @@
 
 static void assert_ends(const char *const *arguments, int code, const char *said) {
     Ran ran = run_with(NULL, arguments);
-    if (ran.code != code || !strstr(ran.err, said)) fail_msg("%d: %s", ran.code, ran.err);
+    if (ran.code != code || !ran.err || !strstr(ran.err, said)) fail_msg("%d: %s", ran.code, ran.err ? ran.err : "");
     ran_free(&ran);
 }
 
