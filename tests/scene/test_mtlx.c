@@ -118,7 +118,10 @@ static void check_document(const char *path, int node) {
     assert_string_equal(xml_attribute(root, "version"), "1.39");
     const XmlElement *shader = root->first;
     while (shader && strcmp(shader->name, definitions[node].node) != 0) shader = shader->next;
-    assert_non_null(shader);
+    if (!shader) {
+        fail_msg("%s: no <%s>", path, definitions[node].node);
+        return;
+    }
     assert_string_equal(xml_attribute(shader, "type"), "surfaceshader");
     for (const XmlElement *input = shader->first; input; input = input->next) {
         const char *type = xml_attribute(input, "type"), *name = xml_attribute(input, "name");

@@ -126,7 +126,8 @@ static void take_texture(MtlxReader *r, const MtlxRow *row, const MtlxSource *so
 
 static void set_value(MtlxReader *r, const MtlxRow *row, const float v[3]) {
     Material *m = &r->material;
-    float *to = row->input < 0 ? NULL : m->inputs[row->input].value;
+    float none[3] = {0.0f, 0.0f, 0.0f}; /* of a row without an input, whose rule is another */
+    float *to = row->input < 0 ? none : m->inputs[row->input].value;
     switch (row->rule) {
     case MTLX_ALPHA_CUTOFF: m->alpha_cutoff = v[0]; break;
     case MTLX_ALPHA_MODE: m->alpha_mode = (WeftAlphaMode)v[0]; break;
