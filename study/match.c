@@ -3,8 +3,8 @@
  *
  *   study_match [--spp N] [--map MAP.hdr] ASSET ...
  *
- * Each asset is path traced under khronos, and under each engine as it is and as it was matched, at 240 x 180 pixels. The
- * errors are FLIP at exposure 0 and relMSE (weft_diff). With few samples the noise, which is not the same in both
+ * Each asset is path traced under khronos, and under each engine as it is and as it was matched, at 240 x 180 pixels.
+ * The errors are FLIP at exposure 0 and relMSE (weft_diff). With few samples the noise, which is not the same in both
  * pictures, is a part of them: 512 unless told. Without a map the light is that of the asset. */
 #include <stdio.h>
 #include <stdlib.h>

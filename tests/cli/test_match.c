@@ -164,8 +164,8 @@ static double flip(const WeftImage *image, const WeftImage *reference) {
     return found.value;
 }
 
-/* Assets of Khronos: drawn by the other engine they are closer to what they were than with their own numbers. SheenCloth
- * has everything in textures. */
+/* Assets of Khronos: drawn by the other engine they are closer to what they were than with their own numbers.
+ * SheenCloth has everything in textures. */
 static void matched_assets_are_closer_in_the_other_engine_than_copied(void **state) {
     (void)state;
     static const struct {

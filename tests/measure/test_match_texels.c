@@ -1,5 +1,5 @@
-/* The match of a textured asset: each texel reflects as the texel that it was made from does in the other engine, what a
- * factor does is left to it, and everything else in the file stays.
+/* The match of a textured asset: each texel reflects as the texel that it was made from does in the other engine,
+ * what a factor does is left to it, and everything else in the file stays.
  *
  * Labels: unsanitized */
 #include <math.h>

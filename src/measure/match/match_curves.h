@@ -1,11 +1,12 @@
 /* match_curves.h - the match of a material at every value that its textures have
  *
- * The match of a material's mean says what becomes of its numbers. If the roughness or the colour of the sheen come from
- * textures, it is repeated at nodes, for the mean of the texels around each: roughness and specular stay those of the
- * first match, the roughness of the sheen becomes another one, and the colours of sheen and base are multiplied by gains. If the roughness of the base comes
- * from a texture, it alone is searched at nodes of its own, for the mean of all else. Between nodes of a roughness, a
- * curve is a monotone cubic: Fritsch, Butland, "A Method for Constructing Local Monotone Piecewise Cubic Interpolants",
- * SIAM J. Sci. Stat. Comput. 5(2), 1984; between brightnesses of the sheen it is linear. */
+ * The match of a material's mean says what becomes of its numbers. If the roughness or the colour of the sheen come
+ * from textures, it is repeated at nodes, for the mean of the texels around each: roughness and specular stay those
+ * of the first match, the roughness of the sheen becomes another one, and the colours of sheen and base are
+ * multiplied by gains. If the roughness of the base comes from a texture, it alone is searched at nodes of its own,
+ * for the mean of all else. Between nodes of a roughness, a curve is a monotone cubic: Fritsch, Butland, "A Method
+ * for Constructing Local Monotone Piecewise Cubic Interpolants", SIAM J. Sci. Stat. Comput. 5(2), 1984; between
+ * brightnesses of the sheen it is linear. */
 #pragma once
 
 #include "measure/match/match.h"
@@ -81,8 +82,8 @@ void curves_straighten(MatchCurves *curves);
 SheenTexel curves_sheen(const MatchCurves *curves, double roughness, double brightness);
 double curves_roughness(const MatchCurves *curves, double roughness);
 
-/* Returns true if a factor on the texture does what the curve of the sheen's roughness or of roughness does, within half
- * a step of 8 bits, and sets *factor to it. */
+/* Returns true if a factor on the texture does what the curve of the sheen's roughness or of roughness does, within
+ * half a step of 8 bits, and sets *factor to it. */
 bool curves_sheen_is_factor(const MatchCurves *curves, double *factor);
 bool curves_roughness_is_factor(const MatchCurves *curves, double *factor);
 

@@ -14,7 +14,7 @@ Texel place_texel(const WeftScene *scene, const WeftMaterial *material, InputId 
 double place_number(const WeftScene *scene, const WeftMaterial *material, InputId input, float u, float v);
 double place_brightness(const WeftScene *scene, const WeftMaterial *material, float u, float v);
 
-/* Returns the input whose texture makes the sheen vary, and that of the nodes' places. */
+/* Returns the input whose texture makes the sheen vary, and says where its nodes' texels lie. */
 InputId place_driver(const MatchCurves *curves);
 
 /* Computes the means of the texels around the nodes of a sheen that varies, of the textures that lie where its texture

@@ -16,8 +16,8 @@
 static const InputId inputs[] = {INPUT_sheen_color, INPUT_base_color, INPUT_sheen_roughness, INPUT_roughness};
 enum { EDITS_MOST = sizeof inputs / sizeof *inputs };
 
-/* What becomes of a texel: it is multiplied by a number, goes through a curve, or a colour has the gain of the sheen that
- * is there. */
+/* What becomes of a texel: it is multiplied by a number, goes through a curve, or a colour has the gain of the sheen
+ * that is there. */
 typedef enum EditKind { EDIT_SCALE, EDIT_CURVE, EDIT_GAIN } EditKind;
 
 /* The new texels of one input. */
