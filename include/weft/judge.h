@@ -11,13 +11,14 @@
  * neither silhouettes nor filters of pixels count.
  *
  * A cell is what an object covers of a square of WEFT_JUDGE_CELL x WEFT_JUDGE_CELL pixels. With p, r and v the means of
- * picture, reference and another rendering over a cell of n pixels, m the mean of the reference over the object and M
- * over all of them, the error of the other rendering is
+ * picture, reference and another rendering over a cell of n pixels, s the standard error of r from the noise of its
+ * samples, m the mean of the reference over the object and M over all of them, the error of the other rendering is
  *
- *   error(v) = sum n (p - v)^2 / (r^2 + (0.1 m)^2 + (0.01 M)^2)      over cells and colour channels
+ *   error(v) = sum n ((p - v)^2 - s^2) / (p^2 + v^2 + (0.1 m)^2 + (0.01 M)^2 + (10 s)^2)     over cells and channels
  *
- * and its share of what sets the picture apart is 1 - error(v) / error(r): 1 where it is the picture, 0 where it is no
- * closer than the reference, less where it is further away. */
+ * or 0 where this is below 0: a cell counts by its relative difference, less where it is noisy, and what noise adds is
+ * taken off. Its share of what sets the picture apart is 1 - error(v) / error(r): 1 where it is the picture, 0 where it
+ * is no closer than the reference, less where it is further away. */
 #ifndef WEFT_JUDGE_H
 #define WEFT_JUDGE_H
 
@@ -122,7 +123,7 @@ typedef struct WeftVerdictObject {
     float value[3];       /* mean of the picture over the interior */
     float expected[3];    /* of the reference, as the picture would show it */
     float off[3];         /* value - expected */
-    double spread;        /* root of the mean squared difference over the cells, relative to the mean */
+    double spread;        /* root of the mean squared difference over the cells, relative to max(m, 0.01 M) */
     int failed;           /* not 0: a mean or the spread is beyond its limit */
     WeftCauseShare cause; /* the best of this object where it failed; cause -1: none was sought */
 } WeftVerdictObject;
@@ -140,10 +141,10 @@ typedef struct WeftVerdict {
  * such pictures are compared with each. verdicts receives `count` records, which weft_verdict_free releases. An object
  * fails where a channel of its mean is off by more than
  *
- *   tolerance max(expected, 0.1 e) + 3 standard errors,        e the largest channel expected of it
+ *   tolerance max(expected, 0.1 e, 0.01 M) + 3 standard errors,        e the largest channel expected of it
  *
- * or its spread is above its limit. Fails with WEFT_MESSAGE_DESC (another size) or _MEMORY, and as weft_render_run
- * does; WEFT_INTERRUPTED where progress (may be NULL) stopped it. *verdicts are then zero. */
+ * or its spread is above its limit by more than noise explains. Fails with WEFT_MESSAGE_DESC (another size) or _MEMORY,
+ * and as weft_render_run does; WEFT_INTERRUPTED where progress (may be NULL) stopped it. *verdicts are then zero. */
 WEFT_API WeftResult weft_judge_pictures(WeftJudge *judge, const WeftJudgePicture *pictures, int count,
                                         WeftProgress progress, void *user, WeftVerdict *verdicts, WeftError *error);
 

@@ -56,7 +56,7 @@ static void head_text(const JudgeRun *run, const WeftJudgeInfo *info) {
 
 static void expected_text(const JudgeRun *run) {
     WeftJudgeObject object;
-    printf("\n  %3s  %-*s  %-*s  %8s  %-26s  %s\n", "#", NAME, "object", NAME, "material", "pixels",
+    printf("\n  %3s  %-*s  %-*s  %5s %5s  %7s  %-26s  %s\n", "#", NAME, "object", NAME, "material", "x", "y", "pixels",
            "expected r, g, b, linear", "noise");
     for (int k = 0; weft_judge_object(run->judge, k, &object); k++) {
         printf("  %3d", k);
@@ -65,8 +65,8 @@ static void expected_text(const JudgeRun *run) {
         float noise = object.noise[0];
         for (int c = 1; c < 3; c++)
             if (object.noise[c] > noise) noise = object.noise[c];
-        printf("  %8d  %8.5f %8.5f %8.5f  %.1g\n", object.pixels, (double)object.value[0], (double)object.value[1],
-               (double)object.value[2], (double)noise);
+        printf("  %5.0f %5.0f  %7d  %8.5f %8.5f %8.5f  %.1g\n", (double)object.x, (double)object.y, object.pixels,
+               (double)object.value[0], (double)object.value[1], (double)object.value[2], (double)noise);
     }
 }
 

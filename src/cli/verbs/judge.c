@@ -10,27 +10,33 @@
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
 
-static int output_check(const Options *options) {
-    const char *path = option_text(options, "-o");
-    if (!path) return 0;
-    if (weft_image_suffix_known(path)) return output_probe_other(options, path);
-    return report(WEFT_USAGE, "%s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
+static int outputs_check(const Options *options) {
+    int cursor = 0, result = 0;
+    for (const char *path; result == 0 && (path = option_next(options, "-o", &cursor));)
+        result = weft_image_suffix_known(path)
+                     ? output_probe_other(options, path)
+                     : report(WEFT_USAGE, "%s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
+    return result;
 }
 
 /* Writes the reference: linear as 32-bit floats, else as displayed. */
-static int reference_write(const JudgeRun *run) {
-    const char *path = option_text(run->options, "-o");
+static WeftResult reference_write(const JudgeRun *run, const char *path, WeftError *error) {
     const WeftImage *reference = weft_judge_reference(run->judge);
     const WeftImageWriting how = {.single = 1, .isa = weft_isa()};
-    WeftError error;
     WeftImage shown = {0};
-    if (!path) return 0;
-    WeftResult result = WEFT_OK;
-    if (!weft_image_suffix_linear(path))
-        result = weft_image_show(reference, &run->scene_options.tone, NULL, &shown, &error);
-    if (result == WEFT_OK) result = weft_image_write_as(path, shown.pixels ? &shown : reference, &how, &error);
+    if (weft_image_suffix_linear(path)) return weft_image_write_as(path, reference, &how, error);
+    WeftResult result = weft_image_show(reference, &run->scene_options.tone, NULL, &shown, error);
+    if (result == WEFT_OK) result = weft_image_write_as(path, &shown, &how, error);
     weft_image_free(&shown);
-    return result == WEFT_OK ? 0 : report_error(&error);
+    return result;
+}
+
+static int references_write(const JudgeRun *run) {
+    int cursor = 0;
+    WeftError error;
+    for (const char *path; (path = option_next(run->options, "-o", &cursor));)
+        if (reference_write(run, path, &error) != WEFT_OK) return report_error(&error);
+    return 0;
 }
 
 /* Says in one line for each picture that fails how much does, and why. */
@@ -52,7 +58,7 @@ static int run_all(JudgeRun *run) {
     int result = judge_pictures_read(run, options->operands + 1, options->operand_count - 1);
     if (result == 0) result = judge_load(run);
     if (result == 0) result = judge_make(run);
-    if (result == 0) result = reference_write(run);
+    if (result == 0) result = references_write(run);
     if (result == 0) result = judge_pictures(run);
     if (result != 0) return result;
     if (option_given(options, "--json"))
@@ -69,7 +75,7 @@ static int judge_run(const Options *options) {
         return report(WEFT_USAGE, "--write: goes with neither an asset nor -o nor --json");
     if (folder) return judge_sweeps(options, folder);
     if (!options->operand_count) return report(WEFT_USAGE, "judge: needs an ASSET, or --write DIR");
-    int result = output_check(options);
+    int result = outputs_check(options);
     if (result == 0 && !judge_read(&run, options, options->operands[0])) result = WEFT_USAGE;
     if (result == 0) result = run_all(&run);
     judge_close(&run);
@@ -87,7 +93,7 @@ static void causes_list(void) {
 
 static const Option judge_options[] = {
     OPTION_HEADING("Reference"),
-    OPTION_TEXT("-o", "OUT", NULL, "write the reference: .exr, .hdr and .npy linear, .png as displayed"),
+    OPTION_LIST("-o", "OUT", "write the reference: .exr, .hdr and .npy linear, .png as displayed"),
     OPTION_WHOLE("--width", "PIXELS", NULL, 1, 65536, "width of the picture [of the first PICTURE, else 640]"),
     OPTION_WHOLE("--height", "PIXELS", NULL, 1, 65536, "height of the picture [of the first PICTURE, else 480]"),
     OPTION_WHOLE("--spp", "COUNT", "64", 2, 1 << 24, "samples a pixel of the reference, and of the causes"),

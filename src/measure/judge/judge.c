@@ -37,27 +37,34 @@ WeftResult judge_render(WeftJudge *judge, const WeftRenderDesc *desc, unsigned c
     return result == WEFT_OK ? weft_render_image(judge->render, out, error) : result;
 }
 
-/* Fills the expected values of the objects and their standard errors. */
+/* Fills the expected values of the objects from means over the cells, and the standard errors of both. */
+static void expect_objects(WeftJudge *judge, const CellMean *means) {
+    for (int k = 0; k < judge->object_count; k++) {
+        WeftJudgeObject *object = &judge->objects[k];
+        double mean[JUDGE_CHANNELS], variance[JUDGE_CHANNELS];
+        judge_object_mean(judge, k, means, mean);
+        judge_object_mean(judge, k, judge->noise, variance); /* of a pixel, on average */
+        for (int c = 0; c < JUDGE_CHANNELS; c++) {
+            object->value[c] = (float)mean[c];
+            object->noise[c] = (float)sqrt(variance[c] / object->pixels);
+        }
+    }
+    for (int k = 0; k < judge->cell_count; k++)
+        for (int c = 0; c < JUDGE_CHANNELS; c++) judge->noise[k].c[c] /= judge->cells[k].pixels;
+}
+
 static WeftResult expect(WeftJudge *judge, WeftError *error) {
     WeftImage variance;
     CellMean *means = alloc_array((size_t)judge->cell_count, sizeof(CellMean));
-    if (!means) return fail(error, WEFT_MESSAGE_MEMORY, judge->scene->name, NULL);
-    WeftResult result = weft_render_aov(judge->render, WEFT_AOV_VARIANCE, &variance, error);
-    for (int pass = 0; result == WEFT_OK && pass < 2; pass++) {
-        judge_cells(judge, pass ? &variance : &judge->reference, means);
-        for (int k = 0; k < judge->object_count; k++) {
-            WeftJudgeObject *object = &judge->objects[k];
-            double mean[JUDGE_CHANNELS];
-            judge_object_mean(judge, k, means, mean);
-            for (int c = 0; c < JUDGE_CHANNELS; c++) {
-                if (pass)
-                    object->noise[c] = (float)sqrt(fmax(mean[c], 0.0) / object->pixels);
-                else
-                    object->value[c] = (float)mean[c];
-            }
-        }
+    judge->noise = alloc_array((size_t)judge->cell_count, sizeof(CellMean));
+    WeftResult result = means && judge->noise ? weft_render_aov(judge->render, WEFT_AOV_VARIANCE, &variance, error)
+                                              : fail(error, WEFT_MESSAGE_MEMORY, judge->scene->name, NULL);
+    if (result == WEFT_OK) {
+        judge_cells(judge, &variance, judge->noise);
+        judge_cells(judge, &judge->reference, means);
+        expect_objects(judge, means);
+        weft_image_free(&variance);
     }
-    if (result == WEFT_OK) weft_image_free(&variance);
     free(means);
     return result;
 }
@@ -92,6 +99,7 @@ void weft_judge_free(WeftJudge *judge) {
     free(judge->objects);
     free(judge->cell_of);
     free(judge->cells);
+    free(judge->noise);
     free(judge);
 }
 

@@ -13,6 +13,11 @@ typedef struct JudgeCell {
     int object, pixels;
 } JudgeCell;
 
+/* The means of a picture over the cells: one number a channel. */
+typedef struct CellMean {
+    double c[JUDGE_CHANNELS];
+} CellMean;
+
 struct WeftJudge {
     WeftScene *scene;
     WeftJudgeDesc desc; /* with defaults; desc.render is that of the reference */
@@ -21,13 +26,9 @@ struct WeftJudge {
     WeftJudgeObject *objects; /* object_count */
     int *cell_of;             /* index into cells of each pixel; -1: in no interior */
     JudgeCell *cells;         /* cell_count */
+    CellMean *noise;          /* squared standard error of the reference over each cell */
     int object_count, left_out, cell_count;
 };
-
-/* The means of a picture over the cells: one number a channel. */
-typedef struct CellMean {
-    double c[JUDGE_CHANNELS];
-} CellMean;
 
 /* Finds the objects, their interiors and cells. Fails with WEFT_MESSAGE_DESC where there is none. */
 WeftResult judge_find_objects(WeftJudge *judge, WeftError *error);
@@ -75,7 +76,7 @@ bool judge_cause_is_of_values(int cause);
 /* Returns true if a cause has a number that is fitted to the picture. */
 bool judge_cause_is_fitted(int cause);
 
-/* Fills the means over the cells as such a cause has them: r of the reference, p of the picture, w the weight of each
- * cell and channel in the error. */
-void judge_cause_values(const WeftJudge *judge, int cause, const CellMean *p, const CellMean *r, const CellMean *w,
+/* Fills the means over the cells as such a cause has them: r of the reference, p of the picture, scales
+ * what the error divides by without r^2. */
+void judge_cause_values(const WeftJudge *judge, int cause, const CellMean *p, const CellMean *r, const CellMean *scales,
                         CellMean *out);

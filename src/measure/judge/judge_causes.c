@@ -152,7 +152,7 @@ static bool environment_at_270(WeftScene *scene, WeftRenderDesc *desc) {
 
 static const CauseRow rows[] = {
     TERM("sheen-left-out", INPUT_sheen_roughness, "the sheen is not drawn", "sheen=0"),
-    TERM("fuzz-left-out", INPUT_fuzz_roughness, "the fuzz is not drawn, or the sheen in its place", "fuzz=0"),
+    TERM("fuzz-left-out", ANY, "the fuzz is not drawn, or the sheen in its place", "fuzz=0"),
     TERM("base-not-dimmed", INPUT_sheen_roughness, "the base under the sheen keeps all of its light: no albedo scaling",
          "layer=additive"),
     TERM("base-dimmed-by-view", INPUT_sheen_roughness, "the base is dimmed by the sheen's E of the view alone",
@@ -188,20 +188,17 @@ static const CauseRow rows[] = {
     LIGHT("textures-not-decoded", WEFT_CAUSE_TERM, "textures of colour are not decoded from sRGB", textures_undecoded),
     CHANGE("roughness-not-squared", INPUT_roughness, "the roughness of the base is its alpha, not squared",
            roughness_linear),
-    TERM("specular-left-out", INPUT_specular, "KHR_materials_specular is not read", "specular=1",
-         "specular_color=1,1,1"),
-    TERM("ior-left-out", INPUT_ior, "KHR_materials_ior is not read: the index of refraction is 1.5", "ior=1.5"),
-    TERM("anisotropy-left-out", INPUT_anisotropy, "the highlight is not stretched", "anisotropy=0"),
+    TERM("specular-left-out", ANY, "KHR_materials_specular is not read", "specular=1", "specular_color=1,1,1"),
+    TERM("ior-left-out", ANY, "KHR_materials_ior is not read: the index of refraction is 1.5", "ior=1.5"),
+    TERM("anisotropy-left-out", ANY, "the highlight is not stretched", "anisotropy=0"),
     CHANGE("anisotropy-across", INPUT_anisotropy_direction,
            "the highlight is stretched at right angles to its direction", anisotropy_across),
-    TERM("clearcoat-left-out", INPUT_clearcoat, "the clear coat is not drawn", "clearcoat=0"),
+    TERM("clearcoat-left-out", ANY, "the clear coat is not drawn", "clearcoat=0"),
     TERM("coat-color-left-out", INPUT_coat_color, "the coat is drawn without its colour", "coat_color=1,1,1"),
     TERM("coat-darkening-left-out", INPUT_coat_darkening, "the coat does not darken the base", "coat_darkening=0"),
-    TERM("diffuse-roughness-left-out", INPUT_diffuse_roughness, "the diffuse lobe has no roughness",
-         "diffuse_roughness=0"),
-    TERM("diffuse-transmission-left-out", INPUT_diffuse_transmission, "no light passes through the cloth",
-         "diffuse_transmission=0"),
-    TERM("retroreflection-left-out", INPUT_retroreflection, "no light returns towards the lamp", "retroreflection=0"),
+    TERM("diffuse-roughness-left-out", ANY, "the diffuse lobe has no roughness", "diffuse_roughness=0"),
+    TERM("diffuse-transmission-left-out", ANY, "no light passes through the cloth", "diffuse_transmission=0"),
+    TERM("retroreflection-left-out", ANY, "no light returns towards the lamp", "retroreflection=0"),
     TERM("normal-map-left-out", ANY, "normal maps are not read", "normal=0"),
     TERM("emission-left-out", ANY, "nothing glows", "emission=0"),
     SCALE("light-times-pi", "the light is pi times as bright, as where f lacks 1/pi", PI_FLOAT),
@@ -369,20 +366,21 @@ static double encoded(double x) {
 }
 
 /* Returns the factor of r that comes closest to p. */
-static double best_factor(const WeftJudge *judge, const CellMean *p, const CellMean *r, const CellMean *w) {
+static double best_factor(const WeftJudge *judge, const CellMean *p, const CellMean *r, const CellMean *scales) {
     double above = 0.0, below = 0.0;
     for (int k = 0; k < judge->cell_count; k++)
         for (int c = 0; c < JUDGE_CHANNELS; c++) {
-            above += w[k].c[c] * p[k].c[c] * r[k].c[c];
-            below += w[k].c[c] * r[k].c[c] * r[k].c[c];
+            const double square = r[k].c[c] * r[k].c[c], weight = judge->cells[k].pixels / (scales[k].c[c] + square);
+            above += weight * p[k].c[c] * r[k].c[c];
+            below += weight * square;
         }
     return below > 0.0 ? above / below : 1.0;
 }
 
-void judge_cause_values(const WeftJudge *judge, int cause, const CellMean *p, const CellMean *r, const CellMean *w,
+void judge_cause_values(const WeftJudge *judge, int cause, const CellMean *p, const CellMean *r, const CellMean *scales,
                         CellMean *out) {
     const ValueChange change = rows[cause].values;
-    const double factor = change == VALUES_SCALED ? best_factor(judge, p, r, w) : 1.0;
+    const double factor = change == VALUES_SCALED ? best_factor(judge, p, r, scales) : 1.0;
     for (int k = 0; k < judge->cell_count; k++)
         for (int c = 0; c < JUDGE_CHANNELS; c++)
             out[k].c[c] = change == VALUES_ENCODED   ? encoded(r[k].c[c])

@@ -12,7 +12,9 @@ typedef struct JudgeCase {
     const WeftJudgePicture *picture;
     WeftVerdict *verdict;
     CellMean *found, *expected; /* of the picture and of the reference as shown; owned */
-    CellMean *weights;          /* of each cell and channel in the error; owned */
+    CellMean *noise;            /* squared standard errors of `expected`; owned */
+    CellMean *scales;           /* of the squared difference of each cell and channel, without that of v; owned */
+    double faint;               /* 0.01 M of weft/judge.h: less is as good as black */
     double *errors;             /* of the reference: over all, then of each object; owned */
     double *best;               /* least error of each object by a cause; owned */
 } JudgeCase;
@@ -67,22 +69,36 @@ static WeftResult shown_cells(const WeftJudge *judge, const WeftJudgePicture *pi
 
 static double mean3(const double value[JUDGE_CHANNELS]) { return (value[0] + value[1] + value[2]) / 3.0; }
 
-/* Fills the weights of the error, which are those of weft/judge.h. */
-static void weigh(const WeftJudge *judge, JudgeCase *c) {
-    double all = 0.0;
-    long long pixels = 0;
+/* Fills the noise of the reference as it is shown, which has the slope of what shows it, and what is faint. */
+static WeftResult measure_noise(const WeftJudge *judge, JudgeCase *c, WeftError *error) {
+    double sum = 0.0, pixels = 0.0;
+    CellMean *linear = alloc_array((size_t)judge->cell_count, sizeof(CellMean));
+    if (!linear) return fail(error, WEFT_MESSAGE_MEMORY, "a picture to judge", NULL);
+    judge_cells(judge, &judge->reference, linear);
     for (int k = 0; k < judge->cell_count; k++) {
-        all += mean3(c->expected[k].c) * judge->cells[k].pixels;
+        sum += mean3(c->expected[k].c) * judge->cells[k].pixels;
         pixels += judge->cells[k].pixels;
+        for (int i = 0; i < JUDGE_CHANNELS; i++) {
+            const double slope = linear[k].c[i] > 0.0 ? c->expected[k].c[i] / linear[k].c[i] : 1.0;
+            c->noise[k].c[i] = judge->noise[k].c[i] * slope * slope;
+        }
     }
-    all /= (double)pixels;
+    c->faint = 0.01 * sum / pixels;
+    free(linear);
+    return WEFT_OK;
+}
+
+/* Fills what the error divides by, as weft/judge.h has it, without the square of the other means. */
+static void scale(const WeftJudge *judge, JudgeCase *c) {
     for (int object = 0; object < judge->object_count; object++) {
         double value[JUDGE_CHANNELS];
         judge_object_mean(judge, object, c->expected, value);
-        const double m = 0.1 * mean3(value), least = m * m + 1e-4 * all * all + 1e-12;
+        const double m = 0.1 * mean3(value), least = m * m + c->faint * c->faint + 1e-12;
         for (int k = 0; k < judge->cell_count; k++)
-            for (int i = 0; i < JUDGE_CHANNELS && judge->cells[k].object == object; i++)
-                c->weights[k].c[i] = judge->cells[k].pixels / (c->expected[k].c[i] * c->expected[k].c[i] + least);
+            for (int i = 0; i < JUDGE_CHANNELS && judge->cells[k].object == object; i++) {
+                const double p = c->found[k].c[i];
+                c->scales[k].c[i] = p * p + least + 100.0 * c->noise[k].c[i];
+            }
     }
 }
 
@@ -91,39 +107,46 @@ static void measure_errors(const WeftJudge *judge, const JudgeCase *c, const Cel
     for (int k = 0; k <= judge->object_count; k++) errors[k] = 0.0;
     for (int k = 0; k < judge->cell_count; k++)
         for (int i = 0; i < JUDGE_CHANNELS; i++) {
-            const double off = c->found[k].c[i] - means[k].c[i], error = c->weights[k].c[i] * off * off;
+            const double v = means[k].c[i], off = c->found[k].c[i] - v;
+            const double error = judge->cells[k].pixels * (off * off - c->noise[k].c[i]) / (c->scales[k].c[i] + v * v);
             errors[0] += error;
             errors[1 + judge->cells[k].object] += error;
         }
+    for (int k = 0; k <= judge->object_count; k++) errors[k] = fmax(errors[k], 0.0);
 }
 
-/* Returns the root of the mean squared difference over an object's cells, relative to its mean. */
-static double spread_of(const WeftJudge *judge, const JudgeCase *c, int object, double mean) {
-    double sum = 0.0;
+/* Returns the root of the mean squared difference over an object's cells, and sets *noise to that of noise. */
+static double spread_of(const WeftJudge *judge, const JudgeCase *c, int object, double *noise) {
+    const double count = JUDGE_CHANNELS * (double)judge->objects[object].pixels;
+    double sum = 0.0, noisy = 0.0;
     for (int k = 0; k < judge->cell_count; k++)
         for (int i = 0; i < JUDGE_CHANNELS && judge->cells[k].object == object; i++) {
             const double off = c->found[k].c[i] - c->expected[k].c[i];
             sum += off * off * judge->cells[k].pixels;
+            noisy += c->noise[k].c[i] * judge->cells[k].pixels;
         }
-    return mean > 0.0 ? sqrt(sum / (JUDGE_CHANNELS * (double)judge->objects[object].pixels)) / mean : 0.0;
+    *noise = sqrt(noisy / count);
+    return sqrt(sum / count);
 }
 
 /* Compares an object's means and decides whether it fails. */
 static void judge_object(const WeftJudge *judge, const JudgeCase *c, int object) {
     WeftVerdictObject *out = &c->verdict->objects[object];
-    double found[JUDGE_CHANNELS], expected[JUDGE_CHANNELS], largest = 0.0;
+    double found[JUDGE_CHANNELS], expected[JUDGE_CHANNELS], largest = 0.0, noisy;
     judge_object_mean(judge, object, c->found, found);
     judge_object_mean(judge, object, c->expected, expected);
     for (int k = 0; k < JUDGE_CHANNELS; k++) largest = fmax(largest, expected[k]);
     *out = (WeftVerdictObject){.cause = {.cause = -1}};
-    out->spread = spread_of(judge, c, object, mean3(expected));
-    out->failed = out->spread > judge->desc.spread;
+    const double spread = spread_of(judge, c, object, &noisy), least = fmax(0.1 * largest, c->faint);
+    const double unit = fmax(mean3(expected), fmax(c->faint, 1e-12));
+    out->spread = spread / unit;
+    out->failed = spread > judge->desc.spread * unit + 3.0 * noisy;
     for (int k = 0; k < JUDGE_CHANNELS; k++) {
         const double off = found[k] - expected[k], noise = (double)judge->objects[object].noise[k];
         out->value[k] = (float)found[k];
         out->expected[k] = (float)expected[k];
         out->off[k] = (float)off;
-        if (fabs(off) > judge->desc.tolerance * fmax(expected[k], 0.1 * largest) + 3.0 * noise) out->failed = 1;
+        if (fabs(off) > judge->desc.tolerance * fmax(expected[k], least) + 3.0 * noise) out->failed = 1;
     }
 }
 
@@ -136,12 +159,13 @@ static WeftResult case_begin(const WeftJudge *judge, JudgeCase *c, WeftError *er
                     image->height, judge->reference.width, judge->reference.height);
     c->found = alloc_array(cells, sizeof(CellMean));
     c->expected = alloc_array(cells, sizeof(CellMean));
-    c->weights = alloc_array(cells, sizeof(CellMean));
+    c->noise = alloc_array(cells, sizeof(CellMean));
+    c->scales = alloc_array(cells, sizeof(CellMean));
     c->errors = alloc_array(objects + 1, sizeof(double));
     c->best = alloc_array(objects, sizeof(double));
     c->verdict->objects = alloc_array(objects, sizeof(WeftVerdictObject));
     c->verdict->causes = alloc_array((size_t)judge_cause_count(), sizeof(WeftCauseShare));
-    if (!c->found || !c->expected || !c->weights || !c->errors || !c->best || !c->verdict->objects ||
+    if (!c->found || !c->expected || !c->noise || !c->scales || !c->errors || !c->best || !c->verdict->objects ||
         !c->verdict->causes)
         return fail(error, WEFT_MESSAGE_MEMORY, "a picture to judge", NULL);
     c->verdict->object_count = judge->object_count;
@@ -149,12 +173,13 @@ static WeftResult case_begin(const WeftJudge *judge, JudgeCase *c, WeftError *er
     if (result != WEFT_OK) return result;
     judge_cells(judge, &linear, c->found);
     weft_image_free(&linear);
-    return shown_cells(judge, c->picture, &judge->reference, c->expected, error);
+    result = shown_cells(judge, c->picture, &judge->reference, c->expected, error);
+    return result == WEFT_OK ? measure_noise(judge, c, error) : result;
 }
 
 /* Compares a picture with the reference. */
 static void case_compare(const WeftJudge *judge, JudgeCase *c) {
-    weigh(judge, c);
+    scale(judge, c);
     measure_errors(judge, c, c->expected, c->errors);
     for (int k = 0; k < judge->object_count; k++) {
         judge_object(judge, c, k);
@@ -202,7 +227,7 @@ static WeftResult try_cause(Trial *trial, int cause, const SceneKept *kept, Weft
         JudgeCase *c = &trial->cases[k];
         if (!c->verdict->failed) continue;
         if (values)
-            judge_cause_values(judge, cause, c->found, c->expected, c->weights, trial->given);
+            judge_cause_values(judge, cause, c->found, c->expected, c->scales, trial->given);
         else
             result = shown_cells(judge, c->picture, &linear, trial->given, error);
         measure_errors(judge, c, trial->given, trial->errors);
@@ -248,7 +273,8 @@ static WeftResult judge_cases(Trial *trial, WeftError *error) {
 static void case_free(JudgeCase *c) {
     free(c->found);
     free(c->expected);
-    free(c->weights);
+    free(c->noise);
+    free(c->scales);
     free(c->errors);
     free(c->best);
 }
