@@ -1,21 +1,25 @@
 /* raster.c - what a frame of the raster engine takes: milliseconds for each sheen lobe on builtin:cloth under
- * one directional light and the environment, and nanoseconds a pixel over the bare base
+ * one directional light, its softbox and the environment, with shadows, and nanoseconds a pixel over the bare base
  *
  *   bench_raster [--quick]
+ *   bench_raster --moving [SCENE MAP.hdr]
  *   bench_raster --sampled [--shader-dir DIR] [--only NAME]... [MAP.hdr]
  *   bench_raster --woven [--shader-dir DIR] [--width N]
  *
  * Every lobe is drawn in turn, several rounds; the least time of a frame counts. The processor's own part is
- * that of a frame whose draw calls do nothing. --sampled: what lobes that are sampled take under an environment
+ * that of a frame whose draw calls do nothing. --moving: frames of an orbit of builtin:cloth as it comes, or of a scene
+ * under a map, as the window draws them in motion, beside those at rest (docs/raster.md). --sampled: what lobes that are sampled take under an environment
  * and no other light, against the strategy `fitted` for the same lobe (docs/environment.md). --woven: what the cloth
  * takes in denim, in both engines, against the scene as it comes, from threads close up to all of the cloth
  * (docs/weave-evidence.md). With shaders of a folder or a width (640 without) only the raster engine is measured: a
  * graphics card takes so little for 640 that the processor's part counts, so give it 3840; 16 to 16384 are taken. */
 #define _POSIX_C_SOURCE 200809L
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <epoxy/gl.h>
 
@@ -73,6 +77,7 @@ static Entry entry_of(const char *lobe) {
     return entry;
 }
 
+/* Returns a view without polygons and shadows. */
 static WeftRasterView view_of(Size size) {
     return (WeftRasterView){
         .width = size.width, .height = size.height, .samples = 1, .camera = "0", .polygons = -1, .no_shadows = 1};
@@ -87,7 +92,7 @@ static double frame(WeftRaster *raster, const WeftRasterView *view) {
 }
 
 static void measure(Entry *entries, int count, Size size, int rounds, int frames) {
-    const WeftRasterView view = view_of(size);
+    const WeftRasterView view = {.width = size.width, .height = size.height, .samples = 1, .camera = "0"};
     for (int k = 0; k < count; k++) {
         entries[k].best = 1e9;
         frame(entries[k].raster, &view); /* compiles */
@@ -229,6 +234,109 @@ static double trace(const WeftScene *scene, const char *camera) {
     return seconds;
 }
 
+/* What frames of an orbit take. */
+typedef struct Orbit {
+    double median, worst, processor; /* s; processor: time of the process a frame, over two cores */
+} Orbit;
+
+static int by_size(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Draws frames of a quarter turn about the scene, after two that compile. */
+static Orbit orbit(WeftRaster *raster, WeftRasterView view) {
+    enum { FRAMES = 24 };
+    double times[FRAMES];
+    frame(raster, &view);
+    frame(raster, &view);
+    const WeftRasterInfo seen = weft_raster_info(raster);
+    const float *t = seen.camera_target, x = seen.camera_eye[0] - t[0], z = seen.camera_eye[2] - t[2];
+    const clock_t start = clock();
+    for (int k = 0; k < FRAMES; k++) {
+        char camera[256];
+        const double angle = 1.57 * k / FRAMES, c = cos(angle), s = sin(angle);
+        snprintf(camera, sizeof camera, "%.6g,%.6g,%.6g;%.6g,%.6g,%.6g;%.6g",
+                 (double)t[0] + c * (double)x + s * (double)z, (double)seen.camera_eye[1],
+                 (double)t[2] + c * (double)z - s * (double)x, (double)t[0], (double)t[1], (double)t[2],
+                 (double)seen.camera_fov);
+        view.camera = camera;
+        times[k] = frame(raster, &view);
+    }
+    const double processor = (double)(clock() - start) / CLOCKS_PER_SEC / (2.0 * FRAMES);
+    qsort(times, FRAMES, sizeof times[0], by_size);
+    return (Orbit){times[FRAMES / 2], times[FRAMES - 1], processor};
+}
+
+/* Returns the sum of absolute differences over the sum, of the first frame with that rate to one at rest. */
+static double difference(WeftRaster *raster, WeftRasterView view) {
+    WeftImage images[2];
+    WeftError error;
+    double off = 0.0, sum = 0.0;
+    for (int k = 0; k < 2; k++) {
+        check(weft_raster_draw(raster, &view, &error), &error);
+        check(weft_raster_image(raster, &images[k], &error), &error);
+        view.shading_rate = 1;
+    }
+    const float *a = images[0].pixels, *b = images[1].pixels;
+    for (size_t k = 0; k < 4 * (size_t)view.width * (size_t)view.height; k++) {
+        const size_t opacity = k - k % 4 + 3;
+        if (k == opacity) continue;
+        off += fabs((double)(a[k] * a[opacity]) - (double)(b[k] * b[opacity]));
+        sum += (double)(b[k] * b[opacity]);
+    }
+    weft_image_free(&images[0]);
+    weft_image_free(&images[1]);
+    return off / sum;
+}
+
+/* Prints a row: a scene at rest and in motion. name: of the row. */
+static void measure_moving(const char *name, WeftScene *scene) {
+    WeftRaster *raster = raster_of(scene, NULL);
+    WeftRasterView view = {
+        .width = 1280, .height = 720, .samples = 1, .camera = weft_scene_info(scene).camera_count ? "0" : NULL};
+    WeftError error;
+    check(weft_raster_wait(raster, &error), &error);
+    frame(raster, &view);
+    const double rest = frame(raster, &view);
+    for (int rate = 3; rate <= 4; rate++) {
+        view.shading_rate = rate;
+        const Orbit moving = orbit(raster, view);
+        printf("| %s | %d x %d | %.0f | %.0f | %.0f | %.1f | %.3f |\n", name, rate, rate, 1e3 * rest,
+               1e3 * moving.median, 1e3 * moving.processor, moving.worst / moving.median, difference(raster, view));
+        fflush(stdout);
+    }
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
+static int moving_main(int argc, char **argv) {
+    static const char *const lobes[] = {"charlie-neubelt", "fibre-table"};
+    WeftScene *scene;
+    WeftError error;
+    if (argc != 2 && argc != 4) refuse(argv[argc - 1]);
+    printf("1280 x 720, one sample a pixel, softbox with soft shadow, ms a frame; of an orbit the median, the time of "
+           "the\n"
+           "process over two cores, and the worst over the median; the difference is that to the picture at rest\n\n"
+           "| scene | pixels a point | at rest | orbit | processor | worst | difference "
+           "|\n|---|---|---|---|---|---|---|\n");
+    if (argc == 4) {
+        check(weft_scene_load(argv[2], &scene, NULL, &error), &error);
+        check(weft_scene_set_environment_file(scene, argv[3], NULL, &error), &error);
+        measure_moving(argv[2], scene);
+        return 0;
+    }
+    for (int k = 0; k < 2; k++) {
+        check(weft_scene_load("builtin:cloth", &scene, NULL, &error), &error);
+        check(weft_scene_set(scene, "*.sheen_lobe", lobes[k], NULL, &error), &error);
+        measure_moving(lobes[k], scene);
+    }
+    check(weft_scene_load("builtin:cloth", &scene, NULL, &error), &error);
+    check(weft_scene_assign_material(scene, "Cloth", "preset:woven-denim", NULL, &error), &error);
+    measure_moving("woven-denim", scene);
+    return 0;
+}
+
 /* A width of pixels, or 0. */
 static int width_of(const char *text) {
     char *end;
@@ -286,6 +394,7 @@ static int woven_main(int argc, char **argv) {
 
 int main(int argc, char **argv) {
     if (argc > 1 && strcmp(argv[1], "--woven") == 0) return woven_main(argc, argv);
+    if (argc > 1 && strcmp(argv[1], "--moving") == 0) return moving_main(argc, argv);
     if (argc > 1 && strcmp(argv[1], "--sampled") == 0) return sampled_main(argc, argv);
     const bool quick = argc > 1 && strcmp(argv[1], "--quick") == 0;
     if (argc > 1 + (int)quick) refuse(argv[1 + (int)quick]);
@@ -297,7 +406,8 @@ int main(int argc, char **argv) {
         if (info->traits & WEFT_LOBE_REFERENCE || (quick && strncmp(info->id, "charlie", 7) != 0)) continue;
         entries[count++] = entry_of(info->id);
     }
-    printf("builtin:cloth, a directional light and the environment, one sample a pixel, by %s\n",
+    printf("builtin:cloth, a directional light, its softbox and the environment, with shadows, one sample a pixel, by "
+           "%s\n",
            weft_raster_info(entries[0].raster).driver);
     measure(entries, count, (Size){1280, 720}, quick ? 2 : 4, 4);
     measure(entries, count, (Size){3840, 2160}, 1, 2);

@@ -79,6 +79,8 @@ ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMa
     }
     add_lights(self, view, &key);
     key.coarse = is_coarse(view);
+    if (key.coarse && key.ambient == WEFT_AMBIENT_BEST + 1)
+        key.ambient = WEFT_AMBIENT_FITTED + 1; /* samples take long */
     if (key.ambient) material_in_light(material, self->environment.parts.env_light_kappa, &key);
     return key;
 }
