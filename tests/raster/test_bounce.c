@@ -156,6 +156,30 @@ static void without_bounces_nothing_changes(void **state) {
     weft_scene_free(scene);
 }
 
+/* The first frames of a sum are mixed with the picture from before, which has no bounced light. */
+static void begins_without_a_jump(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = red_corner();
+    WeftRaster *raster = raster_of(scene);
+    WeftImage before, first;
+    WeftError error;
+    int done = 0;
+    if (weft_raster_draw(raster, &corner_view, &error) != WEFT_OK ||
+        weft_raster_image(raster, &before, &error) != WEFT_OK ||
+        weft_raster_accumulate_begin(raster, &corner_view, FRAMES, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    while (done < 1) assert_int_equal(weft_raster_accumulate(raster, 0.0, &done, NULL), WEFT_OK);
+    if (weft_raster_image(raster, &first, &error) != WEFT_OK) fail_msg("%s", error.text);
+    const Off off = compare(&first, &before);
+    print_message("first frame %.2f %% off\n", 100.0 * off.pixels);
+    assert_true(done == 1 && off.pixels < 0.02);
+    weft_image_free(&before);
+    weft_image_free(&first);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
 static void other_numbers_are_refused(void **state) {
     (void)state;
     need_gl();
@@ -229,6 +253,7 @@ int main(void) {
         cmocka_unit_test(a_grey_box),
         cmocka_unit_test(sheen_lobes_send_light_back),
         cmocka_unit_test(without_bounces_nothing_changes),
+        cmocka_unit_test(begins_without_a_jump),
         cmocka_unit_test(other_numbers_are_refused),
         cmocka_unit_test(chair_is_nearer_the_truth_than_with_any_constant),
     };

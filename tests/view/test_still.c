@@ -38,7 +38,7 @@ static void rest_adds_up_frames(void **state) {
                               "wait rest\n"
                               "wait 4\n"
                               "stay\n",
-                              LIST(SMALL, CHEAP, "--accumulate", "12"));
+                              LIST(SMALL, CHEAP, "--accumulate", "12", "--bounces", "0"));
     json_t *now = NULL;
     double most = 0.0;
     bool again = false;
@@ -65,6 +65,31 @@ static void rest_adds_up_frames(void **state) {
     assert_true(grown > 0.0 && grown < 0.06);
 }
 
+/* At rest surfaces light each other: "Bounced light" is on, and may be switched off. */
+static void rest_has_bounced_light(void **state) {
+    (void)state;
+    need_gl();
+    Drive drive = drive_start("click Panel/View\n"
+                              "wait 3\n"
+                              "click \"View/Bounced light\"\n"
+                              "move 0.1 0.1\n"
+                              "wait seconds 0.5\n"
+                              "wait summed 6\n"
+                              "wait 4\n"
+                              "window without.png\n"
+                              "click \"View/Bounced light\"\n"
+                              "move 0.1 0.1\n"
+                              "wait seconds 0.5\n"
+                              "wait summed 6\n"
+                              "wait 4\n"
+                              "window with.png\n",
+                              LIST(SMALL, CHEAP, "--accumulate", "6"));
+    waitpid(drive.child, NULL, 0);
+    const double bounced = off("with.png", "without.png");
+    print_message("bounced light is %.2f %%\n", 100.0 * bounced);
+    assert_true(bounced > 0.01 && bounced < 0.08);
+}
+
 /* A replay adds nothing up unless it is told to. */
 static void replay_alone_adds_up_none(void **state) {
     (void)state;
@@ -80,7 +105,7 @@ static void replay_alone_adds_up_none(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rest_adds_up_frames),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(rest_adds_up_frames), cmocka_unit_test(rest_has_bounced_light),
                                        cmocka_unit_test(replay_alone_adds_up_none)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }

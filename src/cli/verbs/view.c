@@ -26,6 +26,8 @@ static const Option view_options[] = {
     OPTION_WHOLE("--accumulate", "COUNT", NULL, 0, WEFT_RASTER_FRAMES_MOST,
                  "while nothing changes, take the mean of so many frames, which converges to the path tracer's direct "
                  "light; 0: never [256; 0 with --script]"),
+    OPTION_WHOLE("--bounces", "COUNT", "1", 0, 1,
+                 "and let light bounce once between surfaces in them, until it is switched off; 0: not at first"),
     OPTION_TEXT("--shader-dir", "DIR", NULL,
                 "shader text found here wins over the built-in one, and is compiled anew as it changes"),
 
@@ -78,6 +80,7 @@ static bool read_sizes(const Options *options, ViewDesc *desc) {
     return option_integer(options, "--width", &desc->width) && option_integer(options, "--height", &desc->height) &&
            option_integer(options, "--frames", &desc->frames) &&
            option_integer(options, "--accumulate", &desc->accumulate) &&
+           option_integer(options, "--bounces", &desc->bounces) &&
            option_integer(options, "--occlusion", &desc->occlusion);
 }
 

@@ -130,7 +130,8 @@ static void combine(const Sums *self, unsigned to, unsigned first, float weight,
 void sums_add(Sums *self, const Target *picture) {
     const int last = self->done % 2;
     const float n = (float)++self->done, left = 1.0f - 4.0f * n / (float)self->frames;
-    const float start = self->starts && left > 0.0f ? SUMS_START * left : 0.0f;
+    const float most = self->view.bounces ? SUMS_START_BOUNCED : SUMS_START;
+    const float start = self->starts && left > 0.0f ? most * left : 0.0f;
     self->row = 0;
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_DEPTH_TEST);

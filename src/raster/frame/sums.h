@@ -1,7 +1,8 @@
 /* sums.h - the mean of frames that are drawn one after the other, each with its own random numbers and a little aside
  *
- * The picture from before the first frame counts as SUMS_START frames, fewer with each frame and none after a quarter of
- * them, so that the picture changes without a jump.
+ * The picture from before the first frame counts as SUMS_START frames, or as SUMS_START_BOUNCED where light bounces, of
+ * which a frame has more noise; fewer with each frame and none after a quarter of them, so that the picture changes
+ * without a jump.
  *
  * All calls are for the context that is current. */
 #pragma once
@@ -11,7 +12,7 @@
 #include "text/assemble/text.h"
 #include "weft/raster.h"
 
-enum { SUMS_START = 8 };
+enum { SUMS_START = 8, SUMS_START_BOUNCED = 48 };
 
 typedef struct Sums {
     Target frame;         /* the frame that is being drawn, one sample a pixel */

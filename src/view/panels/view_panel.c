@@ -108,6 +108,8 @@ static void draw_picture(Viewer *v) {
         ui_tip("Linear.");
     }
     if (ui_choice("show", &parts, &part)) options.part = (WeftPart)part;
+    ui_checkbox("Bounced light", &options.bounced);
+    ui_tip("Once nothing moves, surfaces light each other: once, without gloss.");
     draw_floor(&options.floor);
     options_set(v, &options);
 }

@@ -32,6 +32,7 @@ typedef struct ViewDesc {
     const char *materials;    /* folder of maps to put onto the cloth; NULL: none */
     int occlusion;
     int accumulate;     /* frames that are summed while nothing changes; 0: none */
+    int bounces;        /* of light in them, 0 or 1 */
     int width, height;  /* of the window; 0: as it was last time */
     float scale;        /* of panels and text; 0: that of the display, 1 without one */
     int frames;         /* ends after so many; 0: when it is closed */

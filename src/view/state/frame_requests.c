@@ -68,6 +68,7 @@ static FrameRequest make_request(const Viewer *v) {
     request.view.hide_lights = v->options->hide_lights;
     request.view.part = v->options->part;
     request.view.ambient = v->options->ambient;
+    request.view.bounces = v->options->bounced ? 1 : 0;
     request.reference = v->options->mode != MODE_LIVE;
     request.compare = v->options->mode == MODE_DIFFERENCE;
     if (v->options->mode != MODE_LIVE) {

@@ -26,6 +26,7 @@ static const RecordMember option_members[] = {RECORD_WHOLE(ViewOptions, mode, MO
                                               RECORD_FLOATS(ViewOptions, floor.roughness, 1),
                                               RECORD_SWITCH(ViewOptions, stage),
                                               RECORD_SWITCH(ViewOptions, hide_lights),
+                                              RECORD_SWITCH(ViewOptions, bounced),
                                               RECORD_WHOLE(ViewOptions, tonemap, WEFT_TONEMAP_COUNT - 1),
                                               RECORD_FLOATS(ViewOptions, exposure, 1),
                                               RECORD_SWITCH(ViewOptions, metered),

@@ -17,6 +17,7 @@ void options_begin(Viewer *v) {
                                        .floor = desc->floor,
                                        .stage = desc->stage,
                                        .hide_lights = desc->hide_lights,
+                                       .bounced = desc->bounces > 0,
                                        .split_at = 0.5f,
                                        .brush_radius = 0.05f,
                                        .brush_strength = 0.7f};

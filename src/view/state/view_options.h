@@ -18,6 +18,7 @@ typedef struct ViewOptions {
     WeftFloor floor;
     bool stage; /* the floor follows the scene: the user has not decided on one */
     bool hide_lights;
+    bool bounced; /* light bounces once between surfaces, where frames are summed */
     WeftTonemap tonemap;
     float exposure; /* stops */
     bool metered;   /* exposure follows the picture */
