@@ -128,6 +128,34 @@ WEFT_API WeftResult weft_match_asset(const char *path, const char *out, int from
 
 WEFT_API void weft_match_report_free(WeftAssetMatch *report); /* may be NULL */
 
+/* The maps of a cloth that weft_material_bake makes. All 0 and NULL: as given beside each. */
+typedef struct WeftBaking {
+    int pixels;          /* about pixels^2 texels, square ones, 16 .. 8192; 0: 1024 */
+    double metres;       /* that a unit of texture coordinates spans; 0: 1 */
+    const char *profile; /* of the viewer, which must read glTF's metallic; NULL: khronos */
+} WeftBaking;
+
+/* How near the maps come to the cloth from afar: the mean over five directions of light and an even sky of the difference
+ * over the light of the cloth, as maps that copy the threads' own numbers have it, and as they are written. */
+typedef struct WeftBaked {
+    double copied, fitted;
+    double sky;      /* what an even sky gives too much, over what it gives the cloth */
+    double contrast; /* of squares of 4 by 4 texels with each other, over that of the threads */
+} WeftBaked;
+
+/* Writes a woven material as tiling textures into a folder, which is made if it does not exist: base_color.png (sRGB,
+ * coverage in alpha), normal.png, occlusion_roughness.png (occlusion in red, roughness in green, metallic in blue), anisotropy.png (encoded
+ * as in KHR_materials_anisotropy), height.png, the same of its other face as back-base_color.png and so on, and material.json, the material with
+ * both, which scales them to a surface of which one unit of
+ * texture coordinates spans so many metres. The textures contain whole repeats of at least 16 threads; a side has 16 to
+ * 8192 texels. The numbers of the material, and factors on the colours, roughness and anisotropy of the textures, are
+ * fitted so that what a viewer of that profile shades is what the cloth reflects from afar, with the sheen of `material`,
+ * and threads keep their contrast near by. Gaps are black where the material is opaque, else holes. The rotation of the
+ * weave is left out. found, of the front, may be NULL. The same arguments give the same files. Fails with WEFT_MESSAGE_DESC (no cloth, a
+ * number out of range, a profile that is not one or does not read metallic), _PARAM_VALUE, _FILE_WRITE or _MEMORY. */
+WEFT_API WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *cloth, const WeftBaking *baking,
+                                       const char *folder, WeftBaked *found, WeftError *error);
+
 #ifdef __cplusplus
 }
 #endif

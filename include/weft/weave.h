@@ -202,13 +202,8 @@ WEFT_API WeftClothInfo weft_cloth_info(const WeftCloth *cloth);
 /* Returns the figures of a cloth of a scene by its number, WeftMaterial.cloth; all 0 where there is none. */
 WEFT_API WeftClothInfo weft_scene_cloth_info(const WeftScene *scene, int cloth);
 
-/* Writes a cloth as tiling textures into a folder, which is made if it does not exist: base_color.png (sRGB, coverage
- * in alpha), normal.png, occlusion_roughness.png (occlusion in red, roughness in green), anisotropy.png (encoded as in
- * KHR_materials_anisotropy), height.png, the same of its other face as back-base_color.png and so on, laid by the same
- * texture coordinates, and material.json, the material with both, which scales them to a surface of which one unit of texture
- * coordinates spans so many metres. The textures contain whole repeats of at least 16 threads, in about pixels^2
- * texels, pixels 16 .. 8192. Texels are square unless a side would leave that range. Fails with WEFT_MESSAGE_DESC,
- * _FILE_WRITE or _MEMORY. */
+/* Writes a cloth as tiling textures and a material into a folder, as weft_material_bake (weft/match.h) does for a cloth
+ * without a sheen, with gaps as holes, for a viewer of profile khronos. Fails as it does. */
 WEFT_API WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, const char *folder,
                                     WeftError *error);
 

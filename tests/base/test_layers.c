@@ -70,6 +70,7 @@ static const char *const folders[] = {
     "measure/audit",
     "measure/check",
     "measure/fit",
+    "measure/cloth",
     "measure/match",
     "measure/doctor",
     "measure/judge",

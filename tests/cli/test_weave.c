@@ -3,6 +3,8 @@
 
 #include <jansson.h>
 
+#include "weft/weft.h"
+
 static void assert_ends(const char *const *arguments, int code, const char *said) {
     Ran ran = run_with(NULL, arguments);
     if (ran.code != code || !ran.err || !strstr(ran.err, said)) fail_msg("%d: %s", ran.code, ran.err ? ran.err : "");
@@ -113,11 +115,58 @@ static void bake_writes_a_u3m_of_both_faces(void **state) {
     assert_int_equal(system("rm -r denim"), 0);
 }
 
+/* Returns the mean of a channel of the colours, in bytes. */
+static double color_mean(int channel) {
+    WeftImage image;
+    WeftError error;
+    double sum = 0.0;
+    if (weft_image_read("maps/base_color.png", &image, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    const int count = image.width * image.height;
+    for (int k = 0; k < count; k++) sum += ((const uint8_t *)image.pixels)[k * image.channels + channel];
+    weft_image_free(&image);
+    return sum / count;
+}
+
+/* A material is baked with its own draft, yarns and colours, and without a word; what comes of it is a material. */
+static void a_material_is_baked_as_its_weave(void **state) {
+    (void)state;
+    static const char red[] =
+        "{\"weave\": {\"draft\": \"satin 8/3; sett 90 45\", \"warp\": {\"yarn\": \"silk\", \"color\": "
+        "\"#c01818\"}, \"weft\": \"silk\", \"seed\": 3, \"metres\": 0.25}}";
+    file_make("red.json", red, sizeof red - 1);
+    Ran ran = run_with(NULL, LIST("weave", "red.json", "--bake", "maps", "--size", "64", "--json"));
+    if (ran.code != 0 || ran.err[0]) fail_msg("%d: %s", ran.code, ran.err);
+    json_t *json = json_loads(ran.out, JSON_REJECT_DUPLICATES, NULL);
+    assert_non_null(json);
+    const json_t *textures = json_object_get(json, "textures");
+    const double fitted = json_real_value(json_object_get(textures, "fitted")),
+                 copied = json_real_value(json_object_get(textures, "copied"));
+    assert_true(fitted > 0.0 && fitted < 0.25 && fitted < 0.75 * copied);
+    assert_int_equal(json_integer_value(json_object_get(json, "shafts")), 8);
+    json_decref(json);
+    ran_free(&ran);
+    assert_true(color_mean(0) > 1.8 * color_mean(2));
+    const double metres = 0.25; /* over 16 threads of 90 per cm */
+    size_t size;
+    char *text = file_bytes("maps/material.json", &size), scale[32];
+    assert_non_null(text);
+    snprintf(scale, sizeof scale, "[%.5g", metres / (16.0 / 9000.0));
+    if (!strstr(text, scale)) fail_msg("%s is not in %s", scale, text);
+    free(text);
+    assert_ends(LIST("weave", "preset:velvet", "--bake", "other"), 3, "not woven");
+    assert_ends(LIST("weave", "red.json", "--yarn", "wool"), 2, "--yarn: red.json is a material");
+    assert_ends(LIST("weave", "red.json", "--profile", "three"), 2, "--bake");
+    assert_ends(LIST("weave", "red.json", "--bake", "other", "--profile", "treacle"), 2, "no profile treacle");
+    assert_int_equal(access("other", F_OK), -1);
+    assert_true(scratch_remove("maps"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bake_writes_a_u3m_of_both_faces),
         cmocka_unit_test(json_has_the_properties_of_the_draft),
         cmocka_unit_test(draft_written_in_another_form_reads_as_the_same),
+        cmocka_unit_test(a_material_is_baked_as_its_weave),
         cmocka_unit_test(impossible_weave_commands_are_errors_of_one_line),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);

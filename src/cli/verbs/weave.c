@@ -18,7 +18,11 @@ typedef struct Weaving {
     const char *what, *output; /* output: NULL: none */
     WeftDraft *draft;
     WeftDraftInfo info;
-    WeftCloth *cloth; /* NULL: not needed */
+    WeftCloth *cloth;      /* NULL: not needed */
+    bool given;            /* a material was given, not a draft alone */
+    WeftMaterial material; /* what lies on the cloth */
+    bool baked;
+    WeftBaked fit; /* of the maps, if they were made */
 } Weaving;
 
 static int output_check(Weaving *weaving) {
@@ -37,9 +41,47 @@ static double sett(const WeftDraftInfo *info, WeftThreads threads) {
     return (double)info->count[threads] / (100.0 * (double)info->size[threads]);
 }
 
+/* Returns true if the operand names a material: a preset, or a material file. */
+static bool is_material(const char *what) { return strncmp(what, "preset:", 7) == 0 || path_ends(what, ".json"); }
+
+/* Copies the draft of a material, which a scene holds. */
+static WeftResult draft_of_material(Weaving *weaving, const WeftLog *log, WeftError *error) {
+    WeftScene *scene = NULL;
+    WeftMaterial material;
+    WeftResult result = weft_scene_load("builtin:cloth", &scene, log, error);
+    if (result == WEFT_OK) result = weft_scene_assign_material(scene, NULL, weaving->what, NULL, error);
+    if (result == WEFT_OK) result = weft_scene_material(scene, 0, &material, error);
+    if (result == WEFT_OK)
+        result = weft_draft_copy(weft_scene_cloth(scene, material.cloth, NULL), &weaving->draft, error);
+    weft_scene_free(scene);
+    return result;
+}
+
+/* Reads a material: its cloth and its draft. */
+static int material_take(Weaving *weaving) {
+    static const char *const own[] = {"--sett", "--back", "--yarn", "--seed"};
+    const WeftLog log = {.fn = report_warning};
+    WeftError error;
+    for (size_t k = 0; k < sizeof own / sizeof *own; k++)
+        if (option_given(weaving->options, own[k]))
+            return report(WEFT_USAGE, "%s: %.300s is a material, which has its own; change it there", own[k],
+                          weaving->what);
+    if (weft_material_read_woven(weaving->what, &weaving->material, &weaving->cloth, &log, &error) != WEFT_OK)
+        return report_error(&error);
+    if (!weaving->cloth)
+        return report(WEFT_INPUT, "%.300s: is not woven; a material with the key \"weave\" is needed", weaving->what);
+    if (draft_of_material(weaving, &log, &error) != WEFT_OK) return report_error(&error);
+    weaving->info = weft_draft_info(weaving->draft);
+    return 0;
+}
+
 static int draft_make(Weaving *weaving) {
     const WeftLog log = {.fn = report_warning};
     WeftError error;
+    weaving->given = is_material(weaving->what);
+    if (weaving->given) return material_take(weaving);
+    weft_material_default(&weaving->material);
+    weaving->material.alpha_mode = WEFT_ALPHA_BLEND; /* gaps of a cloth alone are holes */
     const int read = draft_read(weaving->what, &log, &weaving->draft);
     if (read != 0) return read;
     if (option_given(weaving->options, "--back")) {
@@ -62,6 +104,7 @@ static int cloth_make(Weaving *weaving) {
     WeftYarn yarns[2];
     WeftError error;
     int seed = 0;
+    if (weaving->cloth) return 0;
     if (!option_integer(options, "--seed", &seed)) return WEFT_USAGE;
     const int result = yarns_read(option_text(options, "--yarn"), yarns);
     if (result != 0) return result;
@@ -92,36 +135,46 @@ static int weaving_write(const Weaving *weaving) {
     return weft_draft_write(weaving->draft, weaving->output, &error) == WEFT_OK ? 0 : report_error(&error);
 }
 
-/* Writes the material of a scene with the maps as cloth.u3m, with construction and composition. */
+/* Writes the material of a scene with the maps as cloth.u3m, with construction and composition, which a material does not name. */
 static WeftResult u3m_write(const Weaving *weaving, const WeftScene *scene, const char *path, WeftError *error) {
     const char *text = option_text(weaving->options, "--yarn"), *comma = strchr(text, ',');
     char name[64];
     snprintf(name, sizeof name, "%.*s", comma ? (int)(comma - text) : (int)strlen(text), text);
     const WeftTextile textile = {
         .draft = weaving->draft, .yarns = {name, comma ? comma + 1 : name}, .metres = UV_METRES};
-    return weft_scene_save_u3m(scene, 0, path, &textile, NULL, error);
+    return weft_scene_save_u3m(scene, 0, path, weaving->given ? NULL : &textile, NULL, error);
+}
+
+/* Returns what a unit of texture coordinates spans: of the draped cloth where the material does not say. */
+static double baked_metres(const WeftCloth *cloth) {
+    const WeftClothInfo info = weft_cloth_info(cloth);
+    return info.automatic || !(info.metres > 0.0f) ? UV_METRES : (double)info.metres;
 }
 
 /* Writes the maps, their material, and a draped cloth of it as cloth.glb. */
-static int maps_write(const Weaving *weaving) {
+static int maps_write(Weaving *weaving) {
     const char *folder = option_text(weaving->options, "--bake");
     char material[4096], glb[4096], u3m[4096];
     WeftScene *scene = NULL;
     WeftError error;
-    int pixels = 0;
+    WeftBaking baking = {.profile = option_text(weaving->options, "--profile")};
+    if (!folder && option_given(weaving->options, "--profile"))
+        return report(WEFT_USAGE, "--profile: is for the textures of --bake DIR");
     if (!folder) return 0;
     if (strlen(folder) > 4000) return report(WEFT_USAGE, "--bake: the name is too long");
-    if (!option_integer(weaving->options, "--size", &pixels)) return WEFT_USAGE;
+    if (!option_integer(weaving->options, "--size", &baking.pixels)) return WEFT_USAGE;
+    baking.metres = weaving->given ? baked_metres(weaving->cloth) : UV_METRES;
     snprintf(material, sizeof material, "%s/material.json", folder);
     snprintf(glb, sizeof glb, "%s/cloth.glb", folder);
     snprintf(u3m, sizeof u3m, "%s/cloth.u3m", folder);
     const WeftLog log = {.fn = report_warning};
-    WeftResult result = weft_cloth_bake(weaving->cloth, pixels, UV_METRES, folder, &error);
+    WeftResult result = weft_material_bake(&weaving->material, weaving->cloth, &baking, folder, &weaving->fit, &error);
     if (result == WEFT_OK) result = weft_scene_load("builtin:cloth", &scene, &log, &error);
     if (result == WEFT_OK) result = weft_scene_assign_material(scene, NULL, material, &log, &error);
     if (result == WEFT_OK) result = weft_scene_save(scene, glb, &error);
     if (result == WEFT_OK) result = u3m_write(weaving, scene, u3m, &error);
     weft_scene_free(scene);
+    weaving->baked = result == WEFT_OK;
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
@@ -157,6 +210,11 @@ static void text_write(const Weaving *weaving) {
              100.0 * (double)cloth.share[WEFT_WEFT],
              100.0 * (1.0 - (double)cloth.share[WEFT_WARP] - (double)cloth.share[WEFT_WEFT]));
     layout_entry(stdout, COLUMN, "seen", text);
+    if (!weaving->baked) return;
+    snprintf(text, sizeof text,
+             "%.1f %% off the cloth's own light; %.1f %% with the threads' own numbers; sky %+.1f %%, contrast %.2f",
+             100.0 * weaving->fit.fitted, 100.0 * weaving->fit.copied, 100.0 * weaving->fit.sky, weaving->fit.contrast);
+    layout_entry(stdout, COLUMN, "textures", text);
 }
 
 static void json_write(const Weaving *weaving) {
@@ -172,6 +230,14 @@ static void json_write(const Weaving *weaving) {
     if (weaving->cloth) {
         json_float(&json, "warp_seen", weft_cloth_info(weaving->cloth).share[WEFT_WARP]);
         json_float(&json, "weft_seen", weft_cloth_info(weaving->cloth).share[WEFT_WEFT]);
+    }
+    if (weaving->baked) {
+        json_open(&json, "textures", '{');
+        json_float(&json, "fitted", (float)weaving->fit.fitted);
+        json_float(&json, "copied", (float)weaving->fit.copied);
+        json_float(&json, "sky", (float)weaving->fit.sky);
+        json_float(&json, "contrast", (float)weaving->fit.contrast);
+        json_close(&json, '}');
     }
     for (int t = 0; t < 2; t++) {
         json_open(&json, names[t], '{');
@@ -216,8 +282,9 @@ static const Option weave_options[] = {
                   "draw the cloth itself, so many warp threads wide, as -o OUT.png"),
     OPTION_TEXT(
         "--bake", "DIR", NULL,
-        "write textures of both faces that tile, a material file with them, a draped cloth of it, cloth.glb, and "
-        "cloth.u3m"),
+        "write textures of both faces that tile, a material file with them, fitted so that a viewer shades it as the "
+        "cloth, a draped cloth of it, cloth.glb, and cloth.u3m"),
+    OPTION_TEXT("--profile", "NAME", "khronos", "the viewer's shading that --bake is fitted for: an engine profile"),
     OPTION_WHOLE("--size", "PIXELS", "800", 16, 8192,
                  "width of that picture; textures have as many texels as a square of that side"),
     OPTION_SWITCH("--json", "the figures as JSON on standard output"),
@@ -232,7 +299,9 @@ const Verb verb_weave = {
     .operands_most = 1,
     .options = weave_options,
     .notes = "DRAFT is a file (.wif, .dtx of Fiberworks, .wpo of WeavePoint), a picture (a\n"
-             "pixel a crossing, the darker of two colours where the warp is on top), or words:\n\n"
+             "pixel a crossing, the darker of two colours where the warp is on top), a material\n"
+             "with a weave (.json, or preset:NAME: yarns, seed, metres and sheen are its own), or\n"
+             "words:\n\n"
              "  plain | houndstooth | basket N [M] | twill A/B[/A/B...] [z|s] | satin N/C |\n"
              "  sateen N/C | herringbone A/B N | picks #.. .#. ..#\n\n"
              "and after it, each behind a semicolon,\n\n"
@@ -244,6 +313,7 @@ const Verb verb_weave = {
              "  weft weave \"twill 2/2 z\"\n"
              "  weft weave cloth.wif -o drawdown.pdf\n"
              "  weft weave \"twill 2/2; both 24b 4k 24g 4r mirror\" -o tartan.png\n"
-             "  weft weave flower.png --sett 60,40 -o flower.wif\n",
+             "  weft weave flower.png --sett 60,40 -o flower.wif\n"
+             "  weft weave preset:woven-denim --bake denim --size 1024 --profile three\n",
     .run = weave_run,
 };

@@ -124,8 +124,8 @@ static bool is_wanted(const Material *material, const MaterialField *row) {
     if (material_field_replaces(row)) return row->object == coat_object && coat_is_wanted(material);
     switch (row->input) {
     case NO_INPUT: return false;
-    case INPUT_specular:
-    case INPUT_ior: return true;
+    case INPUT_specular: return true;
+    case INPUT_ior: return !is_equal(saved_ior(material), row->absent);
     case INPUT_emission: return glows;
     case INPUT_emission_strength:
         return glows && !is_equal(saved_number(material, INPUT_emission_strength, 0), row->absent);

@@ -190,6 +190,10 @@ const char *reflection_walks(const WeftReflection *self) {
     return info && info->traits & WEFT_LOBE_REFERENCE ? info->id : NULL;
 }
 
+Surface reflection_surface(const WeftReflection *self) { return self->whole.surface; }
+
+TableRef reflection_table(const WeftReflection *self) { return self->whole.table; }
+
 static Dir to_frame(const Whole *self, const float w[3]) {
     Dir a = self->along;
     return dir(a.x * w[0] + a.y * w[1], a.x * w[1] - a.y * w[0], w[2]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/catalogue/albedo.h"
+#include "shading/stack/surface.h"
 #include "weft/reflection.h"
 
 /* Replaces the material of a reflection in almost no time. E of its sheen is looked up in one table for all
@@ -12,3 +13,7 @@ void reflection_change(WeftReflection *reflection, const WeftMaterial *material,
 /* Returns the id of the lobe of which a reflection is an estimate (WEFT_LOBE_REFERENCE), by itself or as the
  * sheen of a material; NULL if there is none. */
 const char *reflection_walks(const WeftReflection *reflection);
+
+/* Returns the surface of a reflection of a material, and the table of E of its sheen, which lives as long as it does. */
+Surface reflection_surface(const WeftReflection *reflection);
+TableRef reflection_table(const WeftReflection *reflection);

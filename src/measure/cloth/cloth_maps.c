@@ -1,0 +1,250 @@
+/* cloth_maps.c - a cloth as tileable textures, for renderers without a model of threads */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/fail.h"
+#include "base/file.h"
+#include "base/thread.h"
+#include "measure/cloth/map_look.h"
+#include "scene/record/material.h"
+#include "shading/dialect/tone.h"
+#include "shading/material/choice.h"
+#include "weave/weft_cloth.h"
+
+static const float SLUB_NODES_LEAST = 0.1f; /* per crossing: of a slub that is no longer than a tile */
+enum { MAP_COLOR, MAP_NORMAL, MAP_ROUGHNESS, MAP_ANISOTROPY, MAP_HEIGHT, MAP_COUNT };
+enum {
+    CYCLE_LEAST = 16, /* threads along a map's side, at least */
+    SIDE_MAX = 8192   /* texels along a map's side, at most */
+};
+
+static const struct {
+    const char *file;
+    int channels;
+} kinds[MAP_COUNT] = {
+    {"base_color.png", 4}, {"normal.png", 3}, {"occlusion_roughness.png", 3}, {"anisotropy.png", 3}, {"height.png", 1}};
+
+static const char back_name[] = "back-"; /* begins the names of the other face's files */
+
+/* A face of the cloth. */
+typedef struct MapBake {
+    MapGrid grid;
+    const char *name; /* that its files begin with */
+    bool holed;       /* gaps are holes, not black */
+    MapLook look;
+    WeftImage maps[MAP_COUNT];
+} MapBake;
+
+static unsigned char byte_of(float x) { return (unsigned char)lrintf(255.0f * fminf(fmaxf(x, 0.0f), 1.0f)); }
+
+static unsigned char *texel_at(MapBake *b, int map, int column, int row) {
+    const size_t pixel = (size_t)row * (size_t)b->grid.width + (size_t)column;
+    return (unsigned char *)b->maps[map].pixels + pixel * (size_t)kinds[map].channels;
+}
+
+/* Writes a texel of all maps. Highlights of fibres are elongated across them. The anisotropy map is that of
+ * KHR_materials_anisotropy: this direction as a vector, and the strength with which roughness grows along it. */
+static void put_texel(MapBake *b, const MapTexel *t, int column, int row) {
+    const float cover = fmaxf(t->cover, 1e-6f), x = t->slope[0] / cover, y = t->slope[1] / cover;
+    const float n = 1.0f / sqrtf(1.0f + x * x + y * y);
+    float angle;
+    const float stretch = map_texel_stretch(t, &angle);
+    unsigned char *to = texel_at(b, MAP_COLOR, column, row);
+    for (int c = 0; c < 3; c++)
+        to[c] = byte_of(tone_encode(fminf(b->look.color[c] * map_texel_color(t, c, b->look.shade, b->holed), 1.0f)));
+    to[3] = byte_of(t->cover);
+    to = texel_at(b, MAP_NORMAL, column, row);
+    to[0] = byte_of(0.5f + 0.5f * x * n), to[1] = byte_of(0.5f + 0.5f * y * n), to[2] = byte_of(0.5f + 0.5f * n);
+    to = texel_at(b, MAP_ROUGHNESS, column, row);
+    to[0] = byte_of(t->open / cover), to[1] = byte_of(b->look.roughness * t->roughness / cover),
+    to[2] = byte_of(b->look.metallic);
+    to = texel_at(b, MAP_ANISOTROPY, column, row);
+    to[0] = byte_of(0.5f + 0.5f * cosf(angle)), to[1] = byte_of(0.5f + 0.5f * sinf(angle)),
+    to[2] = byte_of(b->look.anisotropy * stretch);
+    const float span = fmaxf(b->grid.weave.high - b->grid.weave.low, 1e-6f);
+    *texel_at(b, MAP_HEIGHT, column, row) = byte_of((t->height - b->grid.weave.low) / span);
+}
+
+static void bake_row(void *user, int row, int thread) {
+    MapBake *b = user;
+    (void)thread;
+    for (int column = 0; column < b->grid.width; column++) {
+        const MapTexel t = map_texel(&b->grid, column, row);
+        put_texel(b, &t, column, row);
+    }
+}
+
+static WeftResult write_maps(MapBake *b, const char *folder, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < MAP_COUNT && result == WEFT_OK; k++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%.4000s/%s%s", folder, b->name, kinds[k].file);
+        result = weft_image_write_as(path, &b->maps[k], &(WeftImageWriting){.data = k != MAP_COLOR}, error);
+    }
+    return result;
+}
+
+/* Writes the inputs of a face, each with its map; place: its size in texture coordinates. */
+static void write_face(FILE *stream, const MapBake *b, const char *place) {
+    const MapLook *look = &b->look;
+    fprintf(stream, "    \"base_color\": {\"texture\": \"%s%s\", %s},\n", b->name, kinds[MAP_COLOR].file, place);
+    if (b->holed && !b->grid.back)
+        fprintf(stream,
+                "    \"opacity\": {\"texture\": \"%s%s\", \"channel\": \"a\", %s},\n    \"alpha_mode\": "
+                "\"blend\",\n",
+                b->name, kinds[MAP_COLOR].file, place);
+    fprintf(stream, "    \"normal\": {\"texture\": \"%s%s\", \"factor\": %.4g, %s},\n", b->name, kinds[MAP_NORMAL].file,
+            (double)look->normal, place);
+    fprintf(stream, "    \"occlusion\": {\"texture\": \"%s%s\", \"channel\": \"r\", \"factor\": %.4g, %s},\n", b->name,
+            kinds[MAP_ROUGHNESS].file, (double)look->occlusion, place);
+    fprintf(stream, "    \"roughness\": {\"texture\": \"%s%s\", \"channel\": \"g\", %s},\n", b->name,
+            kinds[MAP_ROUGHNESS].file, place);
+    fprintf(stream, "    \"metallic\": {\"texture\": \"%s%s\", \"channel\": \"b\", %s},\n", b->name,
+            kinds[MAP_ROUGHNESS].file, place);
+    fprintf(stream, "    \"anisotropy\": {\"texture\": \"%s%s\", \"channel\": \"b\", %s},\n", b->name,
+            kinds[MAP_ANISOTROPY].file, place);
+    fprintf(stream, "    \"anisotropy_direction\": {\"texture\": \"%s%s\", %s},\n", b->name, kinds[MAP_ANISOTROPY].file,
+            place);
+    fprintf(stream,
+            "    \"ior\": 1.5,\n    \"specular\": %.4g,\n    \"sheen_color\": [%.4g, %.4g, %.4g],\n"
+            "    \"sheen_roughness\": %.4g,\n    \"double_sided\": true",
+            (double)look->specular, (double)look->sheen[0], (double)look->sheen[1], (double)look->sheen[2],
+            (double)look->sheen_roughness);
+}
+
+/* Writes a material file (docs/materials.md) with the maps of both faces. place: their size in texture coordinates. */
+static WeftResult write_material(const MapBake faces[2], const char *place, const char *folder, WeftError *error) {
+    char path[4096];
+    OutputFile file;
+    snprintf(path, sizeof path, "%.4000s/material.json", folder);
+    WeftResult result = output_open(&file, path, error);
+    if (result != WEFT_OK) return result;
+    fprintf(file.stream, "{\n");
+    write_face(file.stream, &faces[0], place);
+    fprintf(file.stream, ",\n    \"back\": {\n");
+    write_face(file.stream, &faces[1], place);
+    fprintf(file.stream, "\n    }\n}\n");
+    return output_commit(&file, error);
+}
+
+/* Gives the sides of maps of about pixels^2 square texels over a cloth of that size, each 16 to SIDE_MAX. A tall repeat
+ * gets maps narrower than `pixels`, so that it takes no more memory than a wide one. */
+static void sides_of(int pixels, const double size[2], int sides[2]) {
+    const double q = (sqrt)(size[0] / size[1]), side = fmin(pixels, SIDE_MAX / fmax(q, 1.0 / q));
+    sides[0] = (int)fmax(rint(side * q), 16.0);
+    sides[1] = (int)fmax(rint(side / q), 16.0);
+}
+
+/* Returns the number of threads of whole repeats, at least CYCLE_LEAST. */
+static int cycle_of(int count) { return count * ((CYCLE_LEAST + count - 1) / count); }
+
+/* Removes a folder that was made for maps of which not all could be written. */
+static void folder_remove(const char *folder) {
+    for (int k = 0; k < 2 * MAP_COUNT; k++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%.4000s/%s%s", folder, k < MAP_COUNT ? "" : back_name, kinds[k % MAP_COUNT].file);
+        unlink(path);
+    }
+    rmdir(folder);
+}
+
+/* Returns the grid of a face, with so many threads of each system, and slubs that fit a tile. */
+static MapGrid grid_of(const WeftCloth *cloth, bool back, const int threads[2], const int sides[2]) {
+    MapGrid grid = {.weave = cloth->weave, .back = back, .width = sides[0], .height = sides[1]};
+    grid.weave.cycle_x = (float)threads[0];
+    grid.weave.cycle_y = (float)threads[1];
+    grid.weave.warp.slub_nodes = fmaxf(grid.weave.warp.slub_nodes, SLUB_NODES_LEAST);
+    grid.weave.weft.slub_nodes = fmaxf(grid.weave.weft.slub_nodes, SLUB_NODES_LEAST);
+    return grid;
+}
+
+/* Bakes and writes the maps of a face. */
+static WeftResult bake_face(MapBake *b, const char *folder, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < MAP_COUNT && result == WEFT_OK; k++)
+        result = weft_image_create(b->grid.width, b->grid.height, kinds[k].channels, WEFT_PIXEL_U8, &b->maps[k], error);
+    if (result == WEFT_OK) {
+        parallel_for(0, b->grid.height, bake_row, b);
+        result = write_maps(b, folder, error);
+    }
+    for (int k = 0; k < MAP_COUNT; k++) weft_image_free(&b->maps[k]);
+    return result;
+}
+
+/* Returns the profile of the viewer; -1 with *error where it is none, or shades no material of glTF's. */
+static int profile_of(const WeftBaking *baking, WeftError *error) {
+    const char *name = baking->profile ? baking->profile : "khronos";
+    const int profile = choice_find(CHOICE_profile, name);
+    Material material = material_default();
+    if (profile < 0) {
+        (void)fail(error, WEFT_MESSAGE_DESC, "maps", "there is no profile %s", name);
+        return -1;
+    }
+    material_choose(&material, CHOICE_profile, profile);
+    if (weft_material_reads(&material, INPUT_metallic)) return profile;
+    (void)fail(error, WEFT_MESSAGE_DESC, "maps", "profile %s does not read the metallic of glTF", name);
+    return -1;
+}
+
+static bool is_holed(const WeftMaterial *material, const WeftCloth *cloth) {
+    const bool gaps = cloth->weave.warp_far.share + cloth->weave.weft_far.share < 0.999f;
+    return gaps && material->alpha_mode != WEFT_ALPHA_OPAQUE;
+}
+
+/* Fits and writes both faces of a cloth, for a viewer of a profile. */
+static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *const cloths[2], int profile, int pixels,
+                             double metres, const char *folder, WeftBaked *found, WeftError *error) {
+    const WeftCloth *front = cloths[0];
+    const int threads[2] = {cycle_of(front->weave.warps), cycle_of(front->weave.picks)};
+    const double size[2] = {front->size[0] * threads[0] / front->weave.warps,
+                            front->size[1] * threads[1] / front->weave.picks};
+    const bool holed = is_holed(material, front);
+    char place[96];
+    int sides[2];
+    MapBake faces[2];
+    WeftBaked baked[2];
+    WeftResult result = WEFT_OK;
+    sides_of(pixels, size, sides);
+    snprintf(place, sizeof place, "\"scale\": [%.9g, %.9g]", metres / size[0], metres / size[1]);
+    for (int k = 0; k < 2 && result == WEFT_OK; k++) {
+        MapBake *b = &faces[k];
+        *b = (MapBake){.grid = grid_of(cloths[k], k == 1, threads, sides), .name = k ? back_name : "", .holed = holed};
+        result = map_look_find(&b->grid, material, cloths[k], profile, holed, &b->look, &baked[k], error);
+        if (result == WEFT_OK) result = bake_face(b, folder, error);
+    }
+    if (result != WEFT_OK) return result;
+    if (found) *found = baked[0];
+    return write_material(faces, place, folder, error);
+}
+
+WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *cloth, const WeftBaking *baking,
+                              const char *folder, WeftBaked *found, WeftError *error) {
+    const int pixels = baking->pixels ? baking->pixels : 1024, profile = profile_of(baking, error);
+    const double metres = fabs(baking->metres) <= 0.0 ? 1.0 : baking->metres;
+    if (profile < 0) return WEFT_USAGE;
+    if (!cloth) return fail(error, WEFT_MESSAGE_DESC, "maps", "the material is not woven");
+    if (pixels < 16 || pixels > SIDE_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, "maps", "%d pixels; 16 to %d are possible", pixels, SIDE_MAX);
+    if (!(metres > 1e-6 && metres < 1e6)) return fail(error, WEFT_MESSAGE_DESC, "maps", "%g metres", metres);
+    const bool made = mkdir(folder, 0777) == 0;
+    if (!made && errno != EEXIST) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
+    WeftCloth *other = cloth_other_face(cloth);
+    const WeftCloth *const cloths[2] = {cloth, other};
+    const WeftResult result = other ? bake_faces(material, cloths, profile, pixels, metres, folder, found, error)
+                                    : fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
+    weft_cloth_free(other);
+    if (result != WEFT_OK && made) folder_remove(folder);
+    return result;
+}
+
+WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, const char *folder, WeftError *error) {
+    Material material = material_default();
+    if (pixels < 1 || !(metres > 0.0)) /* 0 is no default here */
+        return fail(error, WEFT_MESSAGE_DESC, "maps", "%d pixels, %g metres", pixels, metres);
+    material.alpha_mode = WEFT_ALPHA_BLEND;
+    return weft_material_bake(&material, cloth, &(WeftBaking){.pixels = pixels, .metres = metres}, folder, NULL, error);
+}
