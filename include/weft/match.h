@@ -131,14 +131,15 @@ WEFT_API void weft_match_report_free(WeftAssetMatch *report); /* may be NULL */
 /* The maps of a cloth that weft_material_bake makes. All 0 and NULL: as given beside each. */
 typedef struct WeftBaking {
     int pixels;          /* about pixels^2 texels, square ones, 16 .. 8192; 0: 1024 */
-    double metres;       /* that a unit of texture coordinates spans; 0: 1 */
+    double metres;       /* width of a unit of texture coordinates; 0: 1 */
     const char *profile; /* of the viewer, which must read glTF's metallic; NULL: khronos */
 } WeftBaking;
 
-/* How near the maps come to the cloth from afar: the mean over five directions of light and an even sky of the difference
+/* The distance of the maps from the cloth, as seen from afar: the mean over five directions of light and an even sky of the difference
  * over the light of the cloth, as maps that copy the threads' own numbers have it, and as they are written. */
 typedef struct WeftBaked {
-    double copied, fitted;
+    double copied;   /* of maps that copy the threads' own numbers */
+    double fitted;   /* of the maps that are written */
     double sky;      /* what an even sky gives too much, over what it gives the cloth */
     double contrast; /* of squares of 4 by 4 texels with each other, over that of the threads */
 } WeftBaked;

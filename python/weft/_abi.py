@@ -476,6 +476,23 @@ class WeftAssetMatch(Structure):
     ]
 
 
+class WeftBaking(Structure):
+    _fields_ = [
+        ("pixels", c_int),
+        ("metres", c_double),
+        ("profile", c_char_p),
+    ]
+
+
+class WeftBaked(Structure):
+    _fields_ = [
+        ("copied", c_double),
+        ("fitted", c_double),
+        ("sky", c_double),
+        ("contrast", c_double),
+    ]
+
+
 class WeftTarget(Structure):
     _fields_ = [
         ("name", c_char_p),
@@ -1432,6 +1449,9 @@ ENUMS = {
         "c": 3,
         "shadertoy": 4,
         "wgsl": 5,
+        "godot": 6,
+        "unity": 7,
+        "unreal": 8,
     },
     "WeftExportLut": {
         "c": 0,
@@ -1747,6 +1767,7 @@ CALLS = {
     "weft_match_many": (c_int, (POINTER(WeftMatchJob), c_int, c_int, c_int, WeftProgress, c_void_p, POINTER(WeftError),)),
     "weft_match_asset": (c_int, (c_char_p, c_char_p, c_int, c_int, c_int, WeftProgress, c_void_p, c_void_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_match_report_free": (None, (POINTER(WeftAssetMatch),)),
+    "weft_material_bake": (c_int, (POINTER(WeftMaterial), c_void_p, POINTER(WeftBaking), c_char_p, POINTER(WeftBaked), POINTER(WeftError),)),
     "weft_target_info": (c_int, (c_int, POINTER(WeftTarget),)),
     "weft_deliver": (c_int, (c_char_p, c_char_p, c_int, c_int, c_int, WeftProgress, c_void_p, POINTER(WeftDelivery), POINTER(WeftLog), POINTER(WeftError),)),
     "weft_delivery_free": (None, (POINTER(WeftDelivery),)),

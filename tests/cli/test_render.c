@@ -173,7 +173,8 @@ static void save_option_writes_the_scene(void **state) {
     quietly(LIST("render", "builtin:cloth", TINY, "--quiet", "--camera=0", "--material=saved.json", "-o", "c.exr"));
     assert_true(same_bytes("c.exr", one, size));
     free(one);
-    assert_complaint(NULL, LIST("render", "builtin:cloth", "--save=a.obj"), 2, "not a .glb, .gltf, .json, .mtlx, .u3m or .u3ma");
+    assert_complaint(NULL, LIST("render", "builtin:cloth", "--save=a.obj"), 2,
+                     "not a .glb, .gltf, .json, .mtlx, .u3m or .u3ma");
     assert_complaint(NULL, LIST("render", "builtin:cloth", "--save=none/a.glb"), 4, "none/a.glb");
     assert_complaint(NULL, LIST("render", "none.gltf", "--save=a.glb"), 3, "none.gltf");
 }
@@ -309,9 +310,9 @@ static void failed_render_keeps_the_old_picture(void **state) {
     (void)state;
     file_make("a.png", "old", 3);
     assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png"), 3, "none.gltf: cannot be opened");
-    assert_complaint(
-        NULL, LIST("render", "builtin:none", "-o", "a.png"), 2,
-        "builtin:none: is not a built-in scene: available: ball, bend, cloth, lampshade, loom, sewing, spheres, swatch\n");
+    assert_complaint(NULL, LIST("render", "builtin:none", "-o", "a.png"), 2,
+                     "builtin:none: is not a built-in scene: available: ball, bend, cloth, lampshade, loom, sewing, "
+                     "spheres, swatch\n");
     assert_complaint(NULL, LIST("render", "builtin:sphere", "-o", "a.png"), 2,
                      "available: ball, bend, cloth, lampshade, loom, sewing, spheres, swatch; did you mean spheres?");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=0,0,1;0,0,0;180"), 2, "field of view");

@@ -57,7 +57,8 @@ static WeftScene *saved(const WeftScene *scene, const char *name) {
 }
 
 static WeftImage drawn(const WeftScene *scene) {
-    const WeftRenderDesc desc = {.width = 48, .height = 36, .camera = "0", .seed = 7};
+    const char *camera = weft_scene_info(scene).camera_count ? "0" : "auto";
+    const WeftRenderDesc desc = {.width = 48, .height = 36, .camera = camera, .seed = 7};
     WeftRender *render;
     WeftImage image;
     WeftError error;

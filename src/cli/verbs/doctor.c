@@ -263,7 +263,8 @@ static int visit_make(Visit *visit) {
         return report(WEFT_INPUT, "%s: has no file; weft render %s --save FILE.glb makes one", visit->path,
                       visit->path);
     if (path_is_cloth(visit->path) && !path_is_u3m(visit->path))
-        return report(WEFT_INPUT, "%s: is a material of MaterialX and no glTF; weft render %s says what of it is not shown",
+        return report(WEFT_INPUT,
+                      "%s: is a material of MaterialX and no glTF; weft render %s says what of it is not shown",
                       visit->path, visit->path);
     if (path_is_u3m(visit->path) && visit->output)
         return report(WEFT_USAGE, "--fix: %s is a U3M, which is examined and not repaired", visit->path);

@@ -33,7 +33,7 @@ static const char back_name[] = "back-"; /* begins the names of the other face's
 /* A face of the cloth. */
 typedef struct MapBake {
     MapGrid grid;
-    const char *name; /* that its files begin with */
+    const char *name; /* prefix of the files */
     bool holed;       /* gaps are holes, not black */
     MapLook look;
     WeftImage maps[MAP_COUNT];

@@ -216,7 +216,7 @@ static void block_shade(void *user, int block, int thread) {
     shade(fit, &b->texels[FINE], 1.0, b->coarse);
 }
 
-/* Sums pairs of all blocks to rows. */
+/* Fills the rows with the sums of the pairs of all blocks. */
 static void rows_fill(LookFit *fit) {
     for (int k = 0; k < 2 * MAP_ROWS; k++) memset(fit->rows[k].parts, 0, sizeof fit->rows[k].parts);
     for (int b = 0; b < fit->count; b++)
@@ -398,7 +398,7 @@ static void block_look(void *user, int block, int thread) {
     }
 }
 
-/* The look as it was before it was fitted: the reflectance of fibres as base colour, their specular in white. */
+/* Starts from a copy of the threads' own numbers: the reflectance of fibres as base colour, their specular in white. */
 static void copy_start(const WeftCloth *cloth, double x[AXES]) {
     const double white = 0.5 * (double)(cloth->weave.warp.white + cloth->weave.weft.white);
     x[AXIS_METALLIC] = 0.0;
@@ -467,13 +467,13 @@ WeftResult map_look_find(const MapGrid *grid, const WeftMaterial *material, cons
                          bool holed, MapLook *look, WeftBaked *found, WeftError *error) {
     LookFit *fit = alloc_array(1, sizeof *fit);
     LookBlock *blocks = alloc_array(BLOCKS, sizeof *blocks);
-    WeftReflection *truth = NULL;
+    WeftReflection *threads = NULL;
     if (!fit || !blocks) {
         free(fit);
         free(blocks);
         return fail(error, WEFT_MESSAGE_MEMORY, "maps", NULL);
     }
-    WeftResult result = weft_reflection_create_woven(material, cloth, &truth, error);
+    WeftResult result = weft_reflection_create_woven(material, cloth, &threads, error);
     if (result == WEFT_OK) {
         Material bare = material_default();
         material_choose(&bare, CHOICE_profile, profile);
@@ -484,16 +484,16 @@ WeftResult map_look_find(const MapGrid *grid, const WeftMaterial *material, cons
         if (!table_make(fit)) result = fail(error, WEFT_MESSAGE_MEMORY, "maps", NULL);
     }
     if (result == WEFT_OK) {
-        const Surface surface = reflection_surface(truth);
+        const Surface surface = reflection_surface(threads);
         const Choices choices = material_choices(material);
-        NearPoints near = {.fit = fit, .surface = &surface, .choices = &choices, .e = reflection_table(truth)};
-        goals_set(fit, truth);
+        NearPoints near = {.fit = fit, .surface = &surface, .choices = &choices, .e = reflection_table(threads)};
+        goals_set(fit, threads);
         texels_read(fit);
         parallel_for(0, BLOCKS, block_look, &near);
         look_search(fit, found);
         *look = fit->look;
     }
-    weft_reflection_free(truth);
+    weft_reflection_free(threads);
     free(fit->table);
     free(fit);
     free(blocks);

@@ -15,7 +15,7 @@
 #include "measure/cloth/map_texel.h"
 #include "weft/match.h"
 
-/* What is done to the texels of the maps, and the numbers beside them. */
+/* The factors on the texels of the maps, and the numbers beside them. */
 typedef struct MapLook {
     float color[3];   /* factors on the texels of base colour */
     float shade;      /* power of the light that reaches them (map_texel_color) */

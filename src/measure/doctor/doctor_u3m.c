@@ -1,4 +1,4 @@
-/* doctor_u3m.c - what readers of a U3M do not agree on
+/* doctor_u3m.c - findings in a U3M: what its readers do not agree on
  *
  * Vizoo and Browzwear, "Unified 3D Material", schema 1.1, 2020, and "Additional information": what a file has to have, and
  * what its numbers mean. The reader's own warnings are findings too. */
@@ -157,10 +157,10 @@ static void check_constant(WeftDoctor *doctor, const U3mTextured *t) {
 /* Finds numbers in pictures whose channels differ: by the specification their mean counts. */
 static void check_colored(WeftDoctor *doctor, const U3mTextured *t) {
     if (!t->pixels.pixels || t->field->kind != U3M_NUMBER) return;
-    const double apart =
+    const double spread =
         fmax(t->mean[0], fmax(t->mean[1], t->mean[2])) - fmin(t->mean[0], fmin(t->mean[1], t->mean[2]));
-    if (apart < 0.02 || u3m_texture_grey(&t->pixels)) return;
-    doctor_found(doctor, WEFT_FINDING_U3M_CHANNELS, at(t->place), 0, apart, NULL,
+    if (spread < 0.02 || u3m_texture_grey(&t->pixels)) return;
+    doctor_found(doctor, WEFT_FINDING_U3M_CHANNELS, at(t->place), 0, spread, NULL,
                  "the channels of its picture have the means %.2g, %.2g and %.2g: the mean of all counts, and some "
                  "readers take red",
                  t->mean[0], t->mean[1], t->mean[2]);

@@ -25,7 +25,7 @@ void curves_begin(MatchCurves *curves, bool joined) {
 
 bool curves_vary_sheen(const MatchCurves *curves) { return curves->columns > 1 || curves->rows > 1; }
 
-/* Phase 0 has the brightest row, where the sheen is seen best, and the roughness of the base. */
+/* Returns the number of nodes. Phase 0 has the brightest row, where the sheen is seen best, and the roughness of the base. */
 int curves_nodes(const MatchCurves *curves, int phase) {
     if (phase == 1) return (curves->rows - 1) * curves->columns;
     return (curves_vary_sheen(curves) ? curves->columns : 0) + (curves->roughnesses > 1 ? curves->roughnesses : 0);
@@ -139,21 +139,21 @@ void curves_straighten(MatchCurves *curves) {
 }
 
 /* A place between two nodes: the first of them, and the weights of four numbers, the values at both and the slopes. */
-typedef struct Between {
+typedef struct CurveSpan {
     int first;
     double t;
-} Between;
+} CurveSpan;
 
-static Between between(ValueRange range, int count, double x) {
-    if (count == 1) return (Between){0, 0.0};
+static CurveSpan between(ValueRange range, int count, double x) {
+    if (count == 1) return (CurveSpan){0, 0.0};
     const double at = fmin(fmax((x - range.low) / (range.high - range.low), 0.0), 1.0) * (count - 1);
     const int first = (int)fmin(floor(at), count - 2.0);
-    return (Between){first, at - first};
+    return (CurveSpan){first, at - first};
 }
 
 void curves_around(const MatchCurves *curves, double roughness, double brightness, CurvePlace out[4]) {
-    const Between column = between(curves->sheen_roughness, curves->columns, roughness);
-    const Between row = between(curves->brightness, curves->rows, brightness);
+    const CurveSpan column = between(curves->sheen_roughness, curves->columns, roughness);
+    const CurveSpan row = between(curves->brightness, curves->rows, brightness);
     for (int k = 0; k < 4; k++) {
         const int right = k & 1, down = k >> 1;
         out[k] = (CurvePlace){.row = row.first + (curves->rows > 1 ? down : 0),
@@ -169,7 +169,7 @@ static double slope(const double *y, int count, int k) {
     return before * after > 0.0 ? 2.0 * before * after / (before + after) : 0.0;
 }
 
-static double cubic(const double *y, int count, Between at) {
+static double cubic(const double *y, int count, CurveSpan at) {
     if (count == 1) return y[0];
     const double t = at.t, *a = y + at.first;
     const double from = slope(y, count, at.first), to = slope(y, count, at.first + 1);
@@ -184,8 +184,8 @@ static double number_of(const SheenTexel *texel, int n) {
 }
 
 SheenTexel curves_sheen(const MatchCurves *curves, double roughness, double brightness) {
-    const Between column = between(curves->sheen_roughness, curves->columns, roughness);
-    const Between row = between(curves->brightness, curves->rows, brightness);
+    const CurveSpan column = between(curves->sheen_roughness, curves->columns, roughness);
+    const CurveSpan row = between(curves->brightness, curves->rows, brightness);
     double out[NUMBERS];
     for (int n = 0; n < NUMBERS; n++) {
         double end[2] = {0.0};

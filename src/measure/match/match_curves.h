@@ -18,7 +18,7 @@ typedef struct ValueRange {
 
 enum { CURVE_NODES = 7, CURVE_ROWS = 3, CURVE_PHASES = 2 };
 
-/* What becomes of a texel with a sheen. */
+/* A texel with a sheen as it is for the other engine. */
 typedef struct SheenTexel {
     double roughness;                   /* of the sheen */
     double sheen_gain[3], base_gain[3]; /* factors on the colours */

@@ -16,19 +16,19 @@
 static const InputId inputs[] = {INPUT_sheen_color, INPUT_base_color, INPUT_sheen_roughness, INPUT_roughness};
 enum { EDITS_MOST = sizeof inputs / sizeof *inputs };
 
-/* What becomes of a texel: it is multiplied by a number, goes through a curve, or a colour has the gain of the sheen
- * that is there. */
+/* The ways in which a texel changes: it is multiplied by a number, goes through a curve, or a colour has the gain of the
+ * sheen that is there. */
 typedef enum EditKind { EDIT_SCALE, EDIT_CURVE, EDIT_GAIN } EditKind;
 
 /* The new texels of one input. */
-typedef struct Edit {
+typedef struct TexelEdit {
     EditKind kind;
     InputId input;
     json_t *info;     /* the textureInfo that is changed, or from which a new one is made; borrowed */
     int texture;      /* of the file: is rewritten; -1: there is none yet */
     int canvas;       /* index of the image that it is part of */
     double factor[3]; /* by which the new texels are multiplied */
-} Edit;
+} TexelEdit;
 
 /* A new image. */
 typedef struct Canvas {
@@ -38,7 +38,7 @@ typedef struct Canvas {
     WeftImage image;
 } Canvas;
 
-/* What may be written: the material as it is, with other factors, with other textures. */
+/* The materials that may be written: as it is, with other factors, with other textures. */
 typedef enum Offer { OFFER_COPY, OFFER_FACTORS, OFFER_TEXELS, OFFERS } Offer;
 
 /* The errors of what may be written, at one texel. */
@@ -54,11 +54,11 @@ typedef struct TexelWork {
     const TexelMatch *match;
     const WeftMaterial *to; /* with the factors of what is not edited */
     Weighed weighed[TEXELS_WEIGHED];
-    Edit edits[EDITS_MOST];
+    TexelEdit edits[EDITS_MOST];
     Canvas canvases[EDITS_MOST];
     int edit_count, canvas_count;
-    const Edit *now; /* in hand */
-    double *most;    /* of each row and channel */
+    const TexelEdit *now; /* in hand */
+    double *most;         /* of each row and channel */
     LoopWatch watch;
 } TexelWork;
 
@@ -98,11 +98,11 @@ static bool factor_does(const TexelMatch *match, InputId input, WeftMaterial *to
 }
 
 /* Returns true if the texels of an input have to change, and sets the kind. */
-static bool edit_needed(const TexelMatch *match, json_t *material, InputId input, WeftMaterial *to, Edit *edit) {
+static bool edit_needed(const TexelMatch *match, json_t *material, InputId input, WeftMaterial *to, TexelEdit *edit) {
     const bool colored = input_value_count(input) > 1, textured = input_of(match, input)->texture != 0;
     const bool curved = input == INPUT_roughness ? match->curves->roughnesses > 1 : match->curves->columns > 1;
     json_t *own = info_of(material, input), *driver = info_of(material, place_driver(match->curves));
-    *edit = (Edit){.kind = EDIT_SCALE, .input = input, .info = own, .texture = textured ? index_of(own) : -1};
+    *edit = (TexelEdit){.kind = EDIT_SCALE, .input = input, .info = own, .texture = textured ? index_of(own) : -1};
     if (textured && !own) return false; /* the texture is that of another extension */
     if (colored && driver && curves_gain_varies(match->curves, input == INPUT_base_color) &&
         (!textured || place_same(input_of(match, input), input_of(match, place_driver(match->curves))))) {
@@ -131,7 +131,7 @@ static SheenTexel sheen_at(const TexelMatch *match, float u, float v) {
 }
 
 /* Computes the new values of an input at a place. */
-static void values_at(const TexelMatch *match, const Edit *edit, float u, float v, double out[3]) {
+static void values_at(const TexelMatch *match, const TexelEdit *edit, float u, float v, double out[3]) {
     const Input *input = input_of(match, edit->input);
     const int count = input_value_count(edit->input);
     const Texel texel = texel_of(match, edit->input, u, v);
@@ -163,7 +163,7 @@ static const WeftImage *canvas_of(const TexelWork *self) { return &self->canvase
 
 /* Computes the greatest values of a row, or writes it once the factors are known. */
 static void row_done(TexelWork *self, int y, bool write) {
-    const Edit *edit = self->now;
+    const TexelEdit *edit = self->now;
     const WeftImage *image = canvas_of(self);
     const int count = input_value_count(edit->input);
     const float v = ((float)y + 0.5f) / (float)image->height;
@@ -196,7 +196,7 @@ static void row_write(void *user, int y, int thread) {
 }
 
 /* Computes the factors: the greatest values, so that the texels use the whole range. */
-static void factors_of(TexelWork *self, Edit *edit) {
+static void factors_of(TexelWork *self, TexelEdit *edit) {
     const int height = canvas_of(self)->height;
     for (int c = 0; c < input_value_count(edit->input); c++) {
         double most = 0.0;
@@ -211,7 +211,7 @@ static int while_rewriting(void *user, double fraction) {
     return match->progress ? match->progress(match->user, 1.0) : 0;
 }
 
-static WeftResult edit_run(TexelWork *self, Edit *edit, WeftError *error) {
+static WeftResult edit_run(TexelWork *self, TexelEdit *edit, WeftError *error) {
     self->now = edit;
     const int height = canvas_of(self)->height;
     TexelMatch match = *self->match;
@@ -240,12 +240,12 @@ static void canvas_fill(WeftImage *image, const WeftImage *from) {
         }
 }
 
-static bool edit_takes(const TexelMatch *match, const Edit *edit, int channel) {
+static bool edit_takes(const TexelMatch *match, const TexelEdit *edit, int channel) {
     return input_value_count(edit->input) > 1 ? channel < 3 : channel == input_of(match, edit->input)->channel;
 }
 
 /* Returns the canvas of that texture whose channels the edit finds free, or -1. */
-static int canvas_find(const TexelWork *self, const Edit *edit) {
+static int canvas_find(const TexelWork *self, const TexelEdit *edit) {
     for (int k = 0; k < self->canvas_count; k++) {
         const Canvas *canvas = &self->canvases[k];
         bool is_free = canvas->texture == edit->texture && edit->texture >= 0;
@@ -256,7 +256,7 @@ static int canvas_find(const TexelWork *self, const Edit *edit) {
 }
 
 /* Makes the canvas of an edit, or takes one that there is. */
-static WeftResult canvas_for(TexelWork *self, Edit *edit, WeftError *error) {
+static WeftResult canvas_for(TexelWork *self, TexelEdit *edit, WeftError *error) {
     const TexelMatch *match = self->match;
     edit->canvas = canvas_find(self, edit);
     WeftResult result = WEFT_OK;
@@ -286,7 +286,7 @@ static json_t *member_object(json_t *object, const char *name) {
 }
 
 /* Makes an input name a new texture. */
-static WeftResult info_set(json_t *material, const Edit *edit, int texture, const char *name, WeftError *error) {
+static WeftResult info_set(json_t *material, const TexelEdit *edit, int texture, const char *name, WeftError *error) {
     const MaterialField *field = material_field_of(edit->input);
     json_t *home =
         member_object(material_field_extends(field) ? member_object(material, "extensions") : material, field->object);
@@ -320,7 +320,7 @@ static WeftResult edits_run(TexelWork *self, Rewrite *rewrite, json_t *material,
     return result;
 }
 
-static const Edit *edit_of(const TexelWork *self, int input) {
+static const TexelEdit *edit_of(const TexelWork *self, int input) {
     for (int k = 0; k < self->edit_count; k++)
         if ((int)self->edits[k].input == input) return &self->edits[k];
     return NULL;
@@ -339,7 +339,7 @@ static WeftMaterial texel_material(const TexelWork *self, Offer offer, float u, 
     for (int k = 0; k < INPUT_COUNT; k++) {
         WeftInput *input = &out.inputs[k];
         const WeftInputKind kind = input_infos[k].kind;
-        const Edit *edit = offer == OFFER_TEXELS ? edit_of(self, k) : NULL;
+        const TexelEdit *edit = offer == OFFER_TEXELS ? edit_of(self, k) : NULL;
         const WeftMaterial *numbers = offer == OFFER_TEXELS ? self->to : match->factors;
         const Texel texel = texel_of(match, (InputId)k, u, v);
         double value[3] = {0.0};
@@ -428,7 +428,7 @@ WeftResult texels_rewrite(const TexelMatch *match, Rewrite *rewrite, json_t *mat
     offer_take(match, offer, to);
     if (offer == OFFER_TEXELS) result = edits_run(&self, rewrite, material, error);
     for (int k = 0; k < self.edit_count && result == WEFT_OK && offer == OFFER_TEXELS; k++) {
-        const Edit *edit = &self.edits[k];
+        const TexelEdit *edit = &self.edits[k];
         for (int c = 0; c < input_value_count(edit->input); c++)
             to->inputs[edit->input].value[c] = (float)edit->factor[c];
         *maps |= (uint64_t)1 << edit->input;
