@@ -36,7 +36,7 @@ typedef enum WeftExportTarget {
     WEFT_EXPORT_WGSL,      /* for WebGPU: tables are textures of its bind group 0 */
     WEFT_EXPORT_GODOT,     /* a .gdshaderinc of Godot 4: tables are uniforms without filter */
     WEFT_EXPORT_UNITY,     /* HLSL for a Custom Function node, with void ID_float and ID_half for its file */
-    WEFT_EXPORT_UNREAL,    /* a .ush for a Custom node; of it and UNITY, tables up to 4,096 texels are in the text */
+    WEFT_EXPORT_UNREAL, /* a .ush for a Custom node; of it and UNITY, tables of 4,096 texels in all are in the text */
     WEFT_EXPORT_TARGETS
 } WeftExportTarget;
 
@@ -48,7 +48,7 @@ WEFT_API const char *weft_export_target_help(int target);
 /* The form in which tables reach the program. Only PNG16 changes their numbers. */
 typedef enum WeftExportLut {
     WEFT_EXPORT_LUT_C = 0, /* arrays of C; inside the text of targets C and SHADERTOY, of WGSL up to 2,047
-                              texels, the longest array expression there, and of UNITY and UNREAL up to 4,096 */
+                              texels, the longest array expression there, and of UNITY and UNREAL 4,096 in all */
     WEFT_EXPORT_LUT_PNG16, /* 16 bits; the text multiplies by a power of two and adds an offset */
     WEFT_EXPORT_LUT_EXR,
     WEFT_EXPORT_LUT_DDS,

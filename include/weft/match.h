@@ -135,8 +135,8 @@ typedef struct WeftBaking {
     const char *profile; /* of the viewer, which must read glTF's metallic; NULL: khronos */
 } WeftBaking;
 
-/* The distance of the maps from the cloth, as seen from afar: the mean over five directions of light and an even sky of the difference
- * over the light of the cloth, as maps that copy the threads' own numbers have it, and as they are written. */
+/* The distance of the maps from the cloth, as seen from afar: the mean over five directions of light and an even sky of
+ * the difference over the light of the cloth. */
 typedef struct WeftBaked {
     double copied;   /* of maps that copy the threads' own numbers */
     double fitted;   /* of the maps that are written */
@@ -145,14 +145,14 @@ typedef struct WeftBaked {
 } WeftBaked;
 
 /* Writes a woven material as tiling textures into a folder, which is made if it does not exist: base_color.png (sRGB,
- * coverage in alpha), normal.png, occlusion_roughness.png (occlusion in red, roughness in green, metallic in blue), anisotropy.png (encoded
- * as in KHR_materials_anisotropy), height.png, the same of its other face as back-base_color.png and so on, and material.json, the material with
- * both, which scales them to a surface of which one unit of
- * texture coordinates spans so many metres. The textures contain whole repeats of at least 16 threads; a side has 16 to
- * 8192 texels. The numbers of the material, and factors on the colours, roughness and anisotropy of the textures, are
- * fitted so that what a viewer of that profile shades is what the cloth reflects from afar, with the sheen of `material`,
- * and threads keep their contrast near by. Gaps are black where the material is opaque, else holes. The rotation of the
- * weave is left out. found, of the front, may be NULL. The same arguments give the same files. Fails with WEFT_MESSAGE_DESC (no cloth, a
+ * coverage in alpha), normal.png, occlusion_roughness.png (occlusion in red, roughness in green, metallic in blue),
+ * anisotropy.png (encoded as in KHR_materials_anisotropy), height.png, the same of its other face as back-base_color.png
+ * and so on, and material.json, the material with both, which scales them to a surface of which one unit of texture
+ * coordinates spans so many metres. The textures contain whole repeats of at least 16 threads; a side has 16 to 8192
+ * texels. The numbers of the material, and factors on the colours, roughness and anisotropy of the textures, are fitted so
+ * that what a viewer of that profile shades is what the cloth reflects from afar, with the sheen of `material`, and threads
+ * keep their contrast near by. Gaps are black where the material is opaque, else holes. The rotation of the weave is left
+ * out. found, of the front, may be NULL. The same arguments give the same files. Fails with WEFT_MESSAGE_DESC (no cloth, a
  * number out of range, a profile that is not one or does not read metallic), _PARAM_VALUE, _FILE_WRITE or _MEMORY. */
 WEFT_API WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *cloth, const WeftBaking *baking,
                                        const char *folder, WeftBaked *found, WeftError *error);

@@ -9,8 +9,21 @@
 /* The most elements of a WGSL array expression: "WebGPU Shading Language", section 2.3. */
 enum { WGSL_ARRAY = 2047 };
 
-/* The most elements of an indexed array of constants in Direct3D 11: the size of its immediate constant buffer. */
-enum { HLSL_ARRAY = 4096 };
+/* The most elements of all indexed arrays of constants in Direct3D 11: the size of a shader's immediate constant buffer. */
+enum { HLSL_ARRAYS = 4096 };
+
+static int size_of(const TextTable *t) { return t->rows * t->columns; }
+
+/* Returns true if table k of the used ones fits into the text for an engine, beside those before it that do. */
+static bool fits_engine(const Draft *draft, int k) {
+    int sum = 0;
+    for (int j = 0; j <= k; j++) {
+        const int size = draft->tables->used[j] || j == k ? size_of(&draft->tables->all[j]) : 0;
+        if (sum + size > HLSL_ARRAYS && j == k) return false;
+        if (sum + size <= HLSL_ARRAYS) sum += size;
+    }
+    return true;
+}
 
 static bool in_text(const Draft *draft, int k) {
     const TextTable *t = &draft->tables->all[k];
@@ -18,8 +31,8 @@ static bool in_text(const Draft *draft, int k) {
     if (target == WEFT_EXPORT_SHADERTOY) return true;
     if (draft->desc->lut != WEFT_EXPORT_LUT_C) return false;
     const bool engine = target == WEFT_EXPORT_UNITY || target == WEFT_EXPORT_UNREAL;
-    return target == WEFT_EXPORT_C || (target == WEFT_EXPORT_WGSL && t->rows * t->columns <= WGSL_ARRAY) ||
-           (engine && t->rows * t->columns <= HLSL_ARRAY);
+    return target == WEFT_EXPORT_C || (target == WEFT_EXPORT_WGSL && size_of(t) <= WGSL_ARRAY) ||
+           (engine && fits_engine(draft, k));
 }
 
 static char *table_name(const Draft *draft, int k, char name[SPELL_NAME]) {

@@ -84,6 +84,7 @@ static void asset_without_findings_is_reported_as_healthy(void **state) {
     WeftScene *scene;
     WeftError error;
     assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
+    assert_int_equal(weft_scene_set(scene, "*.ior", "1.4", NULL, &error), WEFT_OK); /* of which there is a note */
     assert_int_equal(weft_scene_save(scene, "cloth.glb", &error), WEFT_OK);
     weft_scene_free(scene);
     json_t *report = report_of(LIST("doctor", "cloth.glb", "--json", "--no-notes"), 0);

@@ -272,7 +272,7 @@ static void bad_input_is_one_line(void **state) {
     picture_of("whole.exr", "--profile", "none");
     file_make("text.png", "no picture", 10);
     assert_complaint(NULL, LIST("judge", "grid.gltf", "whole.exr", "--width", "64"), 2,
-                     "whole.exr: is 132 x 88 pixels, but the reference 64 x 480");
+                     "whole.exr: is 132 x 88 pixels, but the reference 64 x 88");
     assert_complaint(NULL, LIST("judge", "grid.gltf", "text.png"), 3, "text.png: is not an image");
     assert_complaint(NULL, LIST("judge", "grid.gltf", "none.exr"), 3, "none.exr: cannot be opened");
     assert_complaint(NULL, LIST("judge", "none.gltf", "whole.exr"), 3, "none.gltf");

@@ -9,6 +9,11 @@ static const char *const render_options[] = {
     "--preset", "--material",   "--workflow", "--profile",  "--diffuse",      "--convert",
     NULL};
 
+static void check_fits(const char *verb, const char *help) {
+    for (const char *line = help; *line; line += strcspn(line, "\n") + 1)
+        if (strcspn(line, "\n") > 80) fail_msg("weft %s --help: over 80 columns: %.100s", verb, line);
+}
+
 /* The help of a verb holds each option at the start of a line, and fits. */
 static void check_help(const char *verb, const char *const *options) {
     Ran ran = RUN(verb, "--help");
@@ -19,8 +24,7 @@ static void check_help(const char *verb, const char *const *options) {
         snprintf(row, sizeof row, "\n  %s ", options[k]);
         if (!strstr(ran.out, row)) fail_msg("weft %s --help lacks %s", verb, options[k]);
     }
-    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
-        if (strcspn(line, "\n") > 80) fail_msg("weft %s --help: over 80 columns: %.100s", verb, line);
+    check_fits(verb, ran.out);
     assert_non_null(strstr(ran.out, "Usage: weft "));
     assert_non_null(strstr(ran.out, "\nExamples\n"));
     ran_free(&ran);
@@ -39,6 +43,22 @@ static void help_of_every_verb_names_its_options(void **state) {
     assert_int_equal(ran.code, 0);
     assert_memory_equal(ran.out, "weft ", 5);
     ran_free(&ran);
+}
+
+/* Takes the verbs from the list of them: two spaces, a verb, more spaces. */
+static void help_of_every_verb_fits_a_terminal(void **state) {
+    (void)state;
+    Ran list = RUN("--help");
+    int count = 0;
+    for (char *line = strchr(list.out, '\n'); line && line[1]; line = strchr(line + 1, '\n')) {
+        char verb[16] = "";
+        if (sscanf(line, "\n  %15[a-z]  ", verb) != 1 || line[3] == ' ') continue;
+        Ran help = RUN(verb, "--help");
+        if (help.code == 0) check_fits(verb, help.out), count++;
+        ran_free(&help);
+    }
+    if (count < 15) fail_msg("%d verbs were found", count);
+    ran_free(&list);
 }
 
 static void help_and_version_work_as_words_and_as_options(void **state) {
@@ -172,11 +192,14 @@ static void numbers_without_a_use_are_checked(void **state) {
 /* Only options that the verb has are offered; fit has no samples a pixel. */
 static void words_of_other_renderers_are_understood(void **state) {
     (void)state;
-    static const char *const pairs[][2] = {
-        {"--samples=4", "did you mean --spp?"},       {"--size=64", "did you mean --width?"},
-        {"--output=o.png", "did you mean -o?"},       {"--resolution=64", "did you mean --width?"},
-        {"--out=o.png", "did you mean -o?"},          {"--environment=a.hdr", "did you mean --env?"},
-        {"--bounces=4", "did you mean --max-depth?"}, {"--hdri=a.hdr", "did you mean --env?"}};
+    static const char *const pairs[][2] = {{"--samples=4", "did you mean --spp?"},
+                                           {"--size=64", "did you mean --width?"},
+                                           {"--output=o.png", "did you mean -o?"},
+                                           {"--resolution=64", "did you mean --width?"},
+                                           {"--out=o.png", "did you mean -o?"},
+                                           {"--environment=a.hdr", "did you mean --env?"},
+                                           {"--bounces=1", "the path tracer has --max-depth"},
+                                           {"--hdri=a.hdr", "did you mean --env?"}};
     for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++)
         assert_complaint(NULL, LIST("render", "a.glb", pairs[k][0]), 2, pairs[k][1]);
     assert_complaint(NULL, LIST("fit", "--samples=4", "a"), 2, "see weft fit --help");
@@ -221,6 +244,7 @@ static void full_disk_is_an_error(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(help_of_every_verb_names_its_options),
+        cmocka_unit_test(help_of_every_verb_fits_a_terminal),
         cmocka_unit_test(usage_error_is_one_line),
         cmocka_unit_test(without_a_verb_the_verbs_are_listed),
         cmocka_unit_test(numbers_outside_their_range_are_refused),

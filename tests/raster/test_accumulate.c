@@ -41,6 +41,11 @@ static void under_a_studio(void **state) {
     WeftScene *scene = balls();
     assert_int_equal(weft_scene_set_environment_studio(scene, NULL), WEFT_OK);
     agrees(scene, &view, FRAMES, SPP, "studio", 0.025, 0.005);
+    /* Factors on the sky count where they are alike too. */
+    scene = balls();
+    assert_int_equal(weft_scene_set_environment_studio(scene, NULL), WEFT_OK);
+    assert_int_equal(weft_scene_set_environment_parts(scene, 0.5f, 0.5f, NULL), WEFT_OK);
+    agrees(scene, &view, 64, SPP, "studio, halved", 0.05, 0.01);
 }
 
 static void under_a_polygon(void **state) {

@@ -395,6 +395,20 @@ static void documents_of_others_are_read(void **state) {
     assert_non_null(strstr(said, "subsurface: is not shown"));
     assert_int_equal(warnings, 2);
     material_file_free(&file);
+    /* A weight that is a constant of a graph, and a square of one. */
+    put_text(path,
+             "<materialx version=\"1.39\" fileprefix=\"mtlx-\"><image name=\"c\" type=\"color3\"><input name=\"file\" "
+             "type=\"filename\" value=\"map.png\" colorspace=\"srgb_texture\"/></image>"
+             "<constant name=\"w\" type=\"float\"><input name=\"value\" type=\"float\" value=\"0.4\"/></constant>"
+             "<multiply name=\"q\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"w\"/>"
+             "<input name=\"in2\" type=\"float\" nodename=\"w\"/></multiply>"
+             "<standard_surface name=\"s\" type=\"surfaceshader\"><input name=\"base\" type=\"float\" nodename=\"w\"/>"
+             "<input name=\"base_color\" type=\"color3\" nodename=\"c\"/>"
+             "<input name=\"specular_roughness\" type=\"float\" nodename=\"q\"/></standard_surface></materialx>");
+    file = load(path);
+    near(value(&file, INPUT_base_color), 0.4f);
+    near(value(&file, INPUT_roughness), 0.16f);
+    material_file_free(&file);
     put_text(path, SHADER("<input name=\"base_weight\" type=\"float\" value=\"0.5\"/>"
                           "<input name=\"base_color\" type=\"color3\" value=\"0.2,0.4,0.6\"/>"));
     file = load(path);
@@ -429,6 +443,10 @@ static void others_are_refused_in_one_line(void **state) {
         {SHADER("<input name=\"fuzz_weight\" type=\"float\" value=\"nan\"/>"), "\"nan\" is not a value of type float"},
         {SHADER("<input name=\"fuzz_weight\" type=\"float\"/>"), "\"\" is not a value of type float"},
         {SHADER("<input name=\"geometry_thin_walled\" type=\"boolean\" value=\"1\"/>"), "not a value of type boolean"},
+        {"<materialx version=\"1.39\"><constant name=\"c\" type=\"integer\"><input name=\"value\" type=\"integer\" "
+         "value=\"1000000\"/></constant><gltf_pbr name=\"s\" type=\"surfaceshader\"><input name=\"alpha_mode\" "
+         "type=\"integer\" nodename=\"c\"/></gltf_pbr></materialx>",
+         "alpha_mode: not 0, 1 or 2"},
         {"<materialx version=\"1.39\"><volume name=\"v\"/><surfacematerial name=\"m\"><input name=\"surfaceshader\" "
          "type=\"surfaceshader\" nodename=\"v\"/></surfacematerial></materialx>",
          "its surface is <volume>: expected open_pbr_surface"},

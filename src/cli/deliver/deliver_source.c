@@ -11,15 +11,12 @@
 #include "cli/deliver/delivery.h"
 #include "cli/operands/draft_operand.h"
 
-/* The kinds of things that can be delivered. */
-typedef enum SourceKind { SOURCE_ASSET, SOURCE_SCENE, SOURCE_MATERIAL, SOURCE_MEASURED, SOURCE_DRAFT } SourceKind;
-
 static bool is_preset(const char *what) { return kind_find(kind_of("preset"), what) >= 0; }
 
-static SourceKind kind_of_source(const char *what) {
+SourceKind source_kind(const char *what) {
     if (path_ends(what, ".gltf") || path_ends(what, ".glb")) return SOURCE_ASSET;
-    if (strncmp(what, "builtin:", 8) == 0) return SOURCE_SCENE;
-    if (path_ends(what, ".json") || path_is_u3m(what) || strncmp(what, "preset:", 7) == 0 || is_preset(what))
+    if (path_builtin(what)) return SOURCE_SCENE;
+    if (path_ends(what, ".json") || path_is_cloth(what) || strncmp(what, "preset:", 7) == 0 || is_preset(what))
         return SOURCE_MATERIAL;
     return weft_reflection_readable(what) ? SOURCE_MEASURED : SOURCE_DRAFT;
 }
@@ -98,7 +95,7 @@ static int meaning_set(Delivery *delivery, SourceKind kind, WeftScene *scene) {
 int source_load(Delivery *delivery, WeftScene **out) {
     static const WeftLog warnings = {.fn = report_warning};
     const WeftLog *log = delivery->loaded ? NULL : &warnings; /* each warning once */
-    const SourceKind kind = kind_of_source(delivery->what);
+    const SourceKind kind = source_kind(delivery->what);
     const bool file = kind == SOURCE_ASSET || kind == SOURCE_SCENE;
     WeftError error;
     *out = NULL;
@@ -116,17 +113,26 @@ int source_load(Delivery *delivery, WeftScene **out) {
     return result;
 }
 
-/* Keeps of a woven material what lies over its threads: sheen, fuzz and coat. */
+/* The layers over the threads that stay as they are: their amount, then their other numbers. A sheen is fitted with the
+ * threads, since glTF has one sheen. */
+enum { LAYERS = 2, LAYER_INPUTS = 3 };
+static const char *const layers[LAYERS][LAYER_INPUTS] = {{"fuzz", "fuzz_color", "fuzz_roughness"},
+                                                         {"clearcoat", "clearcoat_roughness", "coat_ior"}};
+
+/* Returns a woven material without the layers that stay. */
+static WeftMaterial without_layers(const WeftMaterial *woven) {
+    WeftMaterial bare = *woven;
+    for (int l = 0; l < LAYERS; l++) bare.inputs[weft_material_input_find(layers[l][0])].value[0] = 0.0f;
+    return bare;
+}
+
+/* Lays these layers over the baked material. */
 static WeftResult layers_keep(WeftScene *scene, int index, const WeftMaterial *woven, WeftError *error) {
-    static const char *const layers[][3] = {{"sheen_color", "sheen_roughness", "sheen"},
-                                            {"fuzz", "fuzz_color", "fuzz_roughness"},
-                                            {"clearcoat", "clearcoat_roughness", "coat_ior"}};
     WeftMaterial baked;
     WeftResult result = weft_scene_material(scene, index, &baked, error);
-    for (size_t l = 0; l < sizeof layers / sizeof *layers && result == WEFT_OK; l++) {
-        const WeftInput *amount = &woven->inputs[weft_material_input_find(layers[l][0])];
-        if (!(amount->value[0] + amount->value[1] + amount->value[2] > 0.0f)) continue;
-        for (int k = 0; k < 3; k++) {
+    for (int l = 0; l < LAYERS && result == WEFT_OK; l++) {
+        if (!(woven->inputs[weft_material_input_find(layers[l][0])].value[0] > 0.0f)) continue;
+        for (int k = 0; k < LAYER_INPUTS; k++) {
             const int input = weft_material_input_find(layers[l][k]);
             baked.inputs[input] = woven->inputs[input];
         }
@@ -134,25 +140,39 @@ static WeftResult layers_keep(WeftScene *scene, int index, const WeftMaterial *w
     return result == WEFT_OK ? weft_scene_put_material(scene, index, &baked, error) : result;
 }
 
+/* Refuses a material whose number is the name of another, by which that one would be assigned to as well. */
+static int number_check(const WeftScene *scene, int index, const char *number) {
+    for (int k = 0; k < weft_scene_info(scene).material_count; k++)
+        if (k != index && strcmp(weft_scene_material_name(scene, k), number) == 0)
+            return report(WEFT_INPUT,
+                          "material %d is woven, and material %d has the name \"%s\"; give that one another", index, k,
+                          number);
+    return 0;
+}
+
 /* Bakes the cloth of a material to textures, and gives it these. */
 static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftMaterial *material) {
     const WeftClothInfo info = weft_scene_cloth_info(scene, material->cloth);
+    const WeftBaking baking = {.pixels = delivery->pixels, .metres = (double)info.metres};
+    const WeftMaterial bare = without_layers(material);
     WeftYarn yarns[2];
     WeftCloth *cloth = NULL;
     WeftError error;
     char folder[DELIVER_PATH], file[DELIVER_PATH + 32], number[16];
     snprintf(number, sizeof number, "%d", index);
+    const int checked = number_check(scene, index, number);
+    if (checked != 0) return checked;
     snprintf(folder, sizeof folder, "%.3900s/bake-%d", delivery->temporary, index);
     snprintf(file, sizeof file, "%s/material.json", folder);
     const WeftDraft *draft = weft_scene_cloth(scene, material->cloth, yarns);
     WeftResult result = weft_cloth_create(draft, yarns, (unsigned)info.seed, &cloth, &error);
-    if (result == WEFT_OK) result = weft_cloth_bake(cloth, delivery->pixels, (double)info.metres, folder, &error);
+    if (result == WEFT_OK) result = weft_material_bake(&bare, cloth, &baking, folder, NULL, &error);
     weft_cloth_free(cloth);
     if (result == WEFT_OK) result = weft_scene_assign_material(scene, number, file, NULL, &error);
     if (result == WEFT_OK) result = layers_keep(scene, index, material, &error);
     if (info.rotation > 0.0f || info.rotation < 0.0f)
-        snprintf(delivery->lost, sizeof delivery->lost, "the weave is not turned by its %g degrees",
-                 (double)info.rotation);
+        snprintf(delivery->lost, sizeof delivery->lost, "weaves are not rotated: that of material %d by %g degrees",
+                 index, (double)info.rotation);
     return told(result, &error);
 }
 
@@ -161,7 +181,7 @@ int source_write(Delivery *delivery) {
     WeftMaterial material;
     WeftError error;
     int result = source_load(delivery, &scene);
-    if (result == 0 && kind_of_source(delivery->what) == SOURCE_ASSET && !is_woven(scene)) {
+    if (result == 0 && source_kind(delivery->what) == SOURCE_ASSET && !is_woven(scene)) {
         snprintf(delivery->source, sizeof delivery->source, "%s", delivery->what);
         weft_scene_free(scene);
         return 0;

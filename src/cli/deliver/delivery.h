@@ -13,6 +13,9 @@ enum { DELIVER_TARGETS = 16, DELIVER_NAME = 80, DELIVER_PATH = 4096 };
 /* The places that pictures are taken from. */
 typedef enum ViewKind { VIEW_NEAR, VIEW_FAR, VIEW_COUNT } ViewKind;
 
+/* The kinds of things that can be delivered. */
+typedef enum SourceKind { SOURCE_ASSET, SOURCE_SCENE, SOURCE_MATERIAL, SOURCE_MEASURED, SOURCE_DRAFT } SourceKind;
+
 /* Pictures of one scene, F32 RGBA; `sky` is small, from afar, in even light. */
 typedef struct Shots {
     WeftImage views[VIEW_COUNT], sky;
@@ -62,6 +65,9 @@ typedef struct Delivery {
 /* Sets the part of the work that runs next, and passes on its progress, as a WeftProgress whose user is a Delivery. */
 void delivery_part(Delivery *delivery, double low, double high);
 int delivery_heed(void *delivery, double fraction);
+
+/* Returns what an operand is; what is nothing else is a draft, or its words. */
+SourceKind source_kind(const char *what);
 
 /* All below return 0, or an exit code after one line on standard error; WEFT_INTERRUPTED has no line yet. */
 

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/path.h"
 #include "cli/console/decimal.h"
@@ -45,6 +46,7 @@ static int text_read(TableText *self) {
     struct stat about;
     const int handle = open(self->path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC); /* a pipe would wait */
     FILE *stream = handle < 0 ? NULL : fdopen(handle, "rb");
+    if (!stream && handle >= 0) close(handle);
     if (!stream) return report(WEFT_INPUT, "%s: cannot be opened: %s", self->path, strerror(errno));
     int result = 0;
     if (fstat(fileno(stream), &about) != 0 || !S_ISREG(about.st_mode) || about.st_size > SIZE_MOST)

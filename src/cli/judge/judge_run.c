@@ -92,10 +92,8 @@ int judge_make(JudgeRun *run) {
 /* Gives the reference the size of the pictures, and refuses one of another size. */
 static int check_sizes(JudgeRun *run) {
     WeftRenderDesc *render = &run->desc.render;
-    if (!render->width && !render->height && run->count > 0) {
-        render->width = run->images[0].width;
-        render->height = run->images[0].height;
-    }
+    if (!render->width && run->count > 0) render->width = run->images[0].width;
+    if (!render->height && run->count > 0) render->height = run->images[0].height;
     if (!render->width) render->width = 640;
     if (!render->height) render->height = 480;
     for (int k = 0; k < run->count; k++)

@@ -150,7 +150,8 @@ static bool read_engine(const Options *options, Request *request) {
     }
     if (good && request->bounces && !request->accumulate) {
         report(WEFT_USAGE,
-               "--bounces: light bounces only in the sums of frames of --engine raster: add --accumulate 256");
+               "--bounces: light bounces only in the sums of frames of --engine raster: add --accumulate 256; "
+               "the path tracer has --max-depth");
         return false;
     }
     if (good && part && request->engine != ENGINE_RASTER) {

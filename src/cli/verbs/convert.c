@@ -97,7 +97,9 @@ static int material_convert(const Options *options) {
                       path, output);
     if (!output || !path_is_u3m(output))
         return report(WEFT_USAGE, "%s: a U3M becomes a .u3m or a .u3ma: -o OUT.u3ma", output ? output : path);
-    const int probed = output_probe(output);
+    if (option_given(options, "--data") || option_given(options, "--exposure"))
+        return report(WEFT_USAGE, "%s: --data and --exposure go with a picture, not with a U3M", path);
+    const int probed = output_probe_other(options, output);
     if (probed != 0) return probed;
     WeftResult result = weft_scene_load(path, &scene, &log, &error);
     if (result == WEFT_OK) result = weft_scene_save_u3m(scene, save_cloth_of(scene), output, NULL, &log, &error);
@@ -140,15 +142,15 @@ static const Option convert_options[] = {
 const Verb verb_convert = {
     .name = "convert",
     .operands = "PICTURE -o OUT",
-    .help = "writes a picture in another format, such as a texture as KTX 2, or a U3M as archive",
+    .help = "converts a picture, such as to KTX 2, and packs a U3M",
     .operands_least = 1,
     .operands_most = 1,
     .options = convert_options,
-    .notes = "PICTURE is of any format that weft reads. A .ktx2 is what glTF's KHR_texture_basisu\n"
-             "takes: blocks of UASTC in Zstandard, with all mip levels, which viewers turn into\n"
-             "blocks of their GPU. The summary has the ratio of peak to noise of the blocks.\n"
-             "A .u3m is packed with its pictures into a .u3ma, or a .u3ma unpacked, and every byte\n"
-             "of it stays.\n\n"
+    .notes = "PICTURE is of any format that weft reads. A .ktx2 is what glTF's\n"
+             "KHR_texture_basisu takes: blocks of UASTC in Zstandard, with all mip levels,\n"
+             "which viewers turn into blocks of their GPU. The summary has the ratio of peak\n"
+             "to noise of the blocks. A .u3m is packed with its pictures into a .u3ma, or a\n"
+             ".u3ma unpacked, and every byte of it stays.\n\n"
              "Examples\n"
              "  weft convert color.png -o color.ktx2\n"
              "  weft convert normal.png --data -o normal.ktx2\n"

@@ -54,7 +54,7 @@ static int targets_read(Delivery *delivery) {
 static void name_make(Delivery *delivery) {
     const char *what = delivery->what, *slash = strrchr(what, '/');
     const bool file = access(what, F_OK) == 0;
-    if (strncmp(what, "preset:", 7) == 0 || strncmp(what, "builtin:", 8) == 0) what = strchr(what, ':') + 1;
+    if (strncmp(what, "preset:", 7) == 0 || path_builtin(what)) what = strchr(what, ':') + 1;
     if (file && slash) what = slash + 1;
     const char *point = file ? strrchr(what, '.') : NULL;
     size_t length = point && point > what ? (size_t)(point - what) : strlen(what), used = 0;
@@ -65,6 +65,7 @@ static void name_make(Delivery *delivery) {
         else if (used && delivery->name[used - 1] != '-')
             delivery->name[used++] = '-';
     }
+    while (used && (delivery->name[used - 1] & 0xc0) == 0x80 && used == sizeof delivery->name - 1) used--;
     while (used && delivery->name[used - 1] == '-') used--;
     delivery->name[used] = '\0';
     if (!used) snprintf(delivery->name, sizeof delivery->name, "cloth");
@@ -92,10 +93,10 @@ static int options_take(Delivery *delivery) {
     delivery->metric = (WeftBrdfMetric)metric;
     delivery->folder = option_text(options, "-o");
     if (!delivery->folder) return report(WEFT_USAGE, "-o DIR is required: the folder for the files");
-    const bool asset = path_ends(delivery->what, ".glb") || path_ends(delivery->what, ".gltf");
-    if (option_given(options, "--from") && !asset)
+    const SourceKind kind = source_kind(delivery->what);
+    if (option_given(options, "--from") && kind != SOURCE_ASSET)
         return report(WEFT_USAGE, "--from: goes with an asset, a .gltf or .glb");
-    for (size_t k = 0; k < sizeof of_drafts / sizeof *of_drafts && asset; k++)
+    for (size_t k = 0; k < sizeof of_drafts / sizeof *of_drafts && kind != SOURCE_DRAFT; k++)
         if (option_given(options, of_drafts[k])) return report(WEFT_USAGE, "%s: goes with a draft", of_drafts[k]);
     if (!option_integer(options, "--size", &delivery->pixels) ||
         !option_integer(options, "--width", &delivery->width) || !option_integer(options, "--spp", &delivery->spp))
@@ -226,24 +227,24 @@ static const Option deliver_options[] = {
 const Verb verb_deliver = {
     .name = "deliver",
     .operands = "X [options]",
-    .help = "writes files for viewers that need no plug-in, with sheets and numbers that show how near they come",
+    .help = "hands cloth over as glTF for viewers, with proof",
     .operands_least = 1,
     .operands_most = 1,
     .options = deliver_options,
     .lists = targets_list,
-    .notes = "X is an asset (.gltf, .glb), a material (.json, preset:NAME, .u3m), a weaving\n"
-             "draft or its words as in weft weave, or a built-in scene. A measurement has to be\n"
-             "fitted first: weft fit FILE -o fitted.json.\n\n"
+    .notes = "X is an asset (.gltf, .glb), a material (.json, preset:NAME, .u3m, .mtlx),\n"
+             "a weaving draft or its words as in weft weave, or a built-in scene.\n"
+             "A measurement has to be fitted first: weft fit FILE -o fitted.json.\n\n"
              "For each target DIR/NAME-TARGET.glb is written, and DIR/NAME-TARGET.png: the\n"
              "reference, the file as its target shades it, and how they differ, near and far.\n"
-             "DIR/NAME.json has all numbers. Extensions that the target does not read are taken\n"
-             "out, and the factors that remain are matched again. Files appear all together at\n"
-             "the end, or none does.\n\n"
+             "DIR/NAME.json has all numbers. Extensions that the target does not read are\n"
+             "taken out, and the factors that remain are matched again. Files take their\n"
+             "places at the end, when all are made.\n\n"
              "There is no target for Unreal Engine 5: weft has no profile of its Substrate, by\n"
              "which a file could be matched and judged.\n\n"
              "docs/deliver.md goes from a draft to a page on the web.\n\n"
              "Examples\n"
-             "  weft deliver \"twill 3/1; warp 1#28385c; weft 1w\" --to three,babylon,filament -o out\n"
+             "  weft deliver \"twill 3/1; warp 1#28385c; weft 1w\" --to three,filament -o out\n"
              "  weft deliver preset:woven-charmeuse --to three,core -o out --name satin\n"
              "  weft deliver chair.glb --from blender4 --to three,filament -o out --json\n",
     .run = deliver_run,

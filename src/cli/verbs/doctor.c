@@ -318,11 +318,11 @@ const Verb verb_doctor = {
     .operands_most = EACH_MOST,
     .options = doctor_options,
     .lists = list_print,
-    .notes = "ASSET is a .gltf or .glb file, or a material .u3m or .u3ma. It is examined as it is,\n"
-             "before anything is clamped or repaired; what is said of light is measured on the lobes\n"
-             "of the engine profiles.\n"
-             "An error breaks glTF or shows nothing of what is there, a warning looks wrong in\n"
-             "some engine, a note looks otherwise than one may think. docs/doctor.md has each.\n\n"
+    .notes = "ASSET is a .gltf or .glb file, or a material .u3m or .u3ma. It is examined as it\n"
+             "is, before anything is clamped or repaired; what is said of light is measured on\n"
+             "the lobes of the engine profiles. An error breaks glTF or shows nothing of what\n"
+             "is there, a warning looks wrong in some engine, a note looks otherwise than one\n"
+             "may think. docs/doctor.md has each.\n\n"
              "Several assets are examined one after another, and FILE is then a folder, or\n"
              "{} in it stands for the asset's name (docs/batches.md).\n\n"
              "Exit 0: no errors and warnings, or --fix left none; 1: there are some.\n\n"

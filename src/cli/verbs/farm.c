@@ -371,18 +371,19 @@ static const Option farm_options[] = {
 const Verb verb_farm = {
     .name = "farm",
     .operands = "KIND [options] -- VERB ...",
-    .help = "writes a job as commands for many machines: Slurm, GNU parallel, lists",
+    .help = "writes a job as commands for Slurm, GNU parallel, lists",
     .operands_least = 1,
     .operands_most = 1 << 20,
     .options = farm_options,
-    .notes = "KIND is slurm, a script that submits an array of jobs and, after them, what joins\n"
-             "their files; parallel, a script that calls GNU parallel; or list, a command a line\n"
-             "for another queue, where the last, if there is a remark before it, has to wait for\n"
-             "all others. The job behind -- is a command line of weft without the program:\n"
-             "a picture becomes parts and weft merge, a turntable some of its pictures each,\n"
-             "`check all` a model each, and several assets of render, doctor or match one each.\n"
-             "Parts have checkpoints, so that a job that is stopped and queued again goes on.\n"
-             "docs/farm.md has the way from one laptop to a thousand cores.\n\n"
+    .notes = "KIND is slurm, a script that submits an array of jobs and, after them, what\n"
+             "joins their files; parallel, a script that calls GNU parallel; or list, a\n"
+             "command a line for another queue, where the last, if there is a remark before\n"
+             "it, has to wait for all others. The job behind -- is a command line of weft\n"
+             "without the program: a picture becomes parts and weft merge, a turntable some of\n"
+             "its pictures each, `check all` a model each, and several assets of render,\n"
+             "doctor or match one each. Parts have checkpoints, so that a job that is stopped\n"
+             "and queued again goes on. docs/farm.md has the way from one laptop to a thousand\n"
+             "cores.\n\n"
              "Examples\n"
              "  weft farm slurm --array 16 -- render chair.glb --spp 4096 -o chair.exr | sh\n"
              "  weft farm parallel --array 4 -- render chair.glb -o chair.png >chair.sh\n"

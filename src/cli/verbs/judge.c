@@ -128,13 +128,13 @@ static const Option judge_options[] = {
 const Verb verb_judge = {
     .name = "judge",
     .operands = "ASSET [PICTURE...] [options]",
-    .help = "expected values of an asset's objects, and why a picture of it differs",
+    .help = "computes expected values of an asset; explains a wrong picture",
     .operands_least = 0,
     .operands_most = 1024,
     .options = judge_options,
     .lists = causes_list,
-    .notes = "Path traces ASSET and prints the mean linear value of each object, a primitive of\n"
-             "a node, without its outline. Light is what is given: --env, --light and the\n"
+    .notes = "Path traces ASSET and prints the mean linear value of each object, a primitive\n"
+             "of a node, without its outline. Light is what is given: --env, --light and the\n"
              "lights of the file; without any, a sun from the upper right in front,\n"
              "sun;-1,-1,-2;3.14159,3.14159,3.14159, which shows a white diffuse face as 1. The\n"
              "camera is the first of the file, else auto.\n\n"

@@ -52,11 +52,11 @@ const Verb verb_merge = {
     .operands_least = 1,
     .operands_most = CHUNKS_MOST,
     .options = merge_options,
-    .notes = "PART is a file of weft render --chunk I/N; all N are needed, in any order. OUT is,\n"
-             "byte for byte, what one process would have written with the same options, for\n"
-             "whatever N. A part that is damaged, is there twice, or is of another scene, other\n"
-             "options, another version or instruction set (--isa) is refused by name. Of parts\n"
-             "with different --spp those with the most are merged.\n\n"
+    .notes = "PART is a file of weft render --chunk I/N; all N are needed, in any order. OUT\n"
+             "is, byte for byte, what one process would have written with the same options,\n"
+             "for whatever N. A part that is damaged, is there twice, or is of another scene,\n"
+             "other options, another version or instruction set (--isa) is refused by name. Of\n"
+             "parts with different --spp those with the most are merged.\n\n"
              "Examples\n"
              "  for i in 1 2 3; do weft render chair.glb --chunk $i/3 -o part-$i.exr; done\n"
              "  weft merge part-*.exr -o chair.png -o chair.exr\n",

@@ -132,11 +132,12 @@ const Verb verb_view = {
     .operands_least = 0,
     .operands_most = 1,
     .options = view_options,
-    .notes = "SCENE is a .gltf or .glb file, builtin:NAME or a material .u3m, which builtin:cloth then has;\n"
-             "without it, builtin:cloth. Files can be\n"
-             "dropped on the window: scenes, light (.hdr .exr, or a folder with a cube map: posx.jpg,\n"
-             "negx.jpg and so on), materials (.json .u3m .u3ma), lobes of your own (.h), pictures.\n"
-             "Files that change on disk are reloaded. ? in the window lists keys and mouse.\n\n"
+    .notes = "SCENE is a .gltf or .glb file, builtin:NAME or a material .u3m, which\n"
+             "builtin:cloth then has; without it, builtin:cloth. Files can be dropped on the\n"
+             "window: scenes, light (.hdr .exr, or a folder with a cube map: posx.jpg,\n"
+             "negx.jpg and so on), materials (.json .u3m .u3ma), lobes of your own (.h),\n"
+             "pictures. Files that change on disk are reloaded. ? in the window lists keys and\n"
+             "mouse.\n\n"
              "Examples\n"
              "  weft view SheenChair.glb\n"
              "  weft view builtin:cloth --preset velvet --light \"sun;-1,-2,-1;3,3,3\"\n"

@@ -27,7 +27,11 @@ typedef struct Weaving {
 
 static int output_check(Weaving *weaving) {
     const char *path = weaving->output = option_text(weaving->options, "-o");
+    const char *folder = option_text(weaving->options, "--bake");
     const bool cloth = option_given(weaving->options, "--close");
+    if (!folder && option_given(weaving->options, "--profile"))
+        return report(WEFT_USAGE, "--profile: is for the textures of --bake DIR");
+    if (folder && strlen(folder) > 4000) return report(WEFT_USAGE, "--bake: the name is too long");
     if (!path && cloth) return report(WEFT_USAGE, "--close: the picture needs a name: -o OUT.png");
     if (!path) return 0;
     if (cloth && !path_ends(path, ".png")) return report(WEFT_USAGE, "%s: a cloth is drawn as .png", path);
@@ -158,12 +162,11 @@ static int maps_write(Weaving *weaving) {
     WeftScene *scene = NULL;
     WeftError error;
     WeftBaking baking = {.profile = option_text(weaving->options, "--profile")};
-    if (!folder && option_given(weaving->options, "--profile"))
-        return report(WEFT_USAGE, "--profile: is for the textures of --bake DIR");
     if (!folder) return 0;
-    if (strlen(folder) > 4000) return report(WEFT_USAGE, "--bake: the name is too long");
     if (!option_integer(weaving->options, "--size", &baking.pixels)) return WEFT_USAGE;
     baking.metres = weaving->given ? baked_metres(weaving->cloth) : UV_METRES;
+    if (weft_cloth_info(weaving->cloth).rotation > 0.0f || weft_cloth_info(weaving->cloth).rotation < 0.0f)
+        report(0, "warning: %.300s: its weave is rotated; textures lie along the texture coordinates", weaving->what);
     snprintf(material, sizeof material, "%s/material.json", folder);
     snprintf(glb, sizeof glb, "%s/cloth.glb", folder);
     snprintf(u3m, sizeof u3m, "%s/cloth.u3m", folder);
@@ -294,14 +297,14 @@ static const Option weave_options[] = {
 const Verb verb_weave = {
     .name = "weave",
     .operands = "DRAFT [options]",
-    .help = "reads a weaving draft (WIF, picture or words), converts it and draws it",
+    .help = "reads a weaving draft (WIF, picture, words); draws, bakes it",
     .operands_least = 1,
     .operands_most = 1,
     .options = weave_options,
     .notes = "DRAFT is a file (.wif, .dtx of Fiberworks, .wpo of WeavePoint), a picture (a\n"
-             "pixel a crossing, the darker of two colours where the warp is on top), a material\n"
-             "with a weave (.json, or preset:NAME: yarns, seed, metres and sheen are its own), or\n"
-             "words:\n\n"
+             "pixel a crossing, the darker of two colours where the warp is on top), a\n"
+             "material with a weave (.json, or preset:NAME: yarns, seed, metres and sheen are\n"
+             "its own), or words:\n\n"
              "  plain | houndstooth | basket N [M] | twill A/B[/A/B...] [z|s] | satin N/C |\n"
              "  sateen N/C | herringbone A/B N | picks #.. .#. ..#\n\n"
              "and after it, each behind a semicolon,\n\n"

@@ -18,8 +18,9 @@
 static const float SLUB_NODES_LEAST = 0.1f; /* per crossing: of a slub that is no longer than a tile */
 enum { MAP_COLOR, MAP_NORMAL, MAP_ROUGHNESS, MAP_ANISOTROPY, MAP_HEIGHT, MAP_COUNT };
 enum {
-    CYCLE_LEAST = 16, /* threads along a map's side, at least */
-    SIDE_MAX = 8192   /* texels along a map's side, at most */
+    CYCLE_LEAST = 16,  /* threads along a map's side, at least */
+    SIDE_MAX = 8192,   /* texels along a map's side, at most */
+    FOLDER_MOST = 4000 /* bytes of a folder's name */
 };
 
 static const struct {
@@ -230,6 +231,7 @@ WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *clo
     if (pixels < 16 || pixels > SIDE_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "maps", "%d pixels; 16 to %d are possible", pixels, SIDE_MAX);
     if (!(metres > 1e-6 && metres < 1e6)) return fail(error, WEFT_MESSAGE_DESC, "maps", "%g metres", metres);
+    if (strlen(folder) > FOLDER_MOST) return fail(error, WEFT_MESSAGE_FILE_WRITE, "maps", "the name is too long");
     const bool made = mkdir(folder, 0777) == 0;
     if (!made && errno != EEXIST) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
     WeftCloth *other = cloth_other_face(cloth);

@@ -185,7 +185,7 @@ static Surface texel_surface(const LookFit *fit, const LookTexel *t) {
 static void shade(const LookFit *fit, const LookTexel *t, double part, double parts[PARTS][MAP_PAIRS]) {
     const Dir up = dir(0.0f, 0.0f, 1.0f);
     const Facing facing = {.geometric = up, .normal = up, .tangent = dir(1.0f, 0.0f, 0.0f), .handedness = 1.0f};
-    const double light = (double)powf(t->light, (float)fit->x[AXIS_SHADE]);
+    const double light = (double)powf(fmaxf(t->light, 0.0f), (float)fit->x[AXIS_SHADE]);
     const Surface surface = texel_surface(fit, t), framed = frame_surface(surface);
     const TableRef e = fit->table ? albedo_table_ref(fit->table) : (TableRef){.kind = TABLE_NONE};
     SeenStack seen;
@@ -425,7 +425,7 @@ static double chance(const LookFit *fit, int c, float shade) {
     double blocks = 0.0, whole = 0.0;
     for (int k = 0; k < BLOCKS * FINE; k++) {
         const LookTexel *t = &fit->blocks[k / FINE].texels[k % FINE];
-        blocks += (double)(t->cover * t->color[c] * powf(t->light, shade)) / (BLOCKS * FINE);
+        blocks += (double)(t->cover * t->color[c] * powf(fmaxf(t->light, 0.0f), shade)) / (BLOCKS * FINE);
     }
     for (int k = 0; k < WHOLE; k++) {
         const MapTexel t = whole_texel(fit->grid, k);

@@ -85,23 +85,28 @@ static bool has_environment(const WeftScene *scene) {
     return e->strength > 0.0f && !black;
 }
 
+/* Returns true if a punctual light is not the only light. */
+static bool has_light_beside(const WeftScene *scene) {
+    return scene->light_count > 0 && (has_environment(scene) || scene->polygon_light_count > 0);
+}
+
 static bool environment_left_out(WeftScene *scene, WeftRenderDesc *desc) {
     (void)desc;
-    const bool any = has_environment(scene) && scene->light_count > 0;
+    const bool any = has_environment(scene) && scene->light_count + scene->polygon_light_count > 0;
     scene->environment.strength = 0.0f;
     return any;
 }
 
 static bool lights_left_out(WeftScene *scene, WeftRenderDesc *desc) {
     (void)desc;
-    const bool any = has_environment(scene) && scene->light_count > 0;
+    const bool any = has_light_beside(scene);
     scene->light_count = 0;
     return any;
 }
 
 static bool lights_scaled(WeftScene *scene, float factor) {
     for (int k = 0; k < scene->light_count; k++) scene->lights[k].intensity *= factor;
-    return has_environment(scene) && scene->light_count > 0;
+    return has_light_beside(scene);
 }
 
 static bool lights_times_pi(WeftScene *scene, WeftRenderDesc *desc) {

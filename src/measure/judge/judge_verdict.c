@@ -140,13 +140,13 @@ static void judge_object(const WeftJudge *judge, const JudgeCase *c, int object)
     const double spread = spread_of(judge, c, object, &noisy), least = fmax(0.1 * largest, c->faint);
     const double unit = fmax(mean3(expected), fmax(c->faint, 1e-12));
     out->spread = spread / unit;
-    out->failed = spread > judge->desc.spread * unit + 3.0 * noisy;
+    out->failed = !(spread <= judge->desc.spread * unit + 3.0 * noisy); /* of no number too */
     for (int k = 0; k < JUDGE_CHANNELS; k++) {
         const double off = found[k] - expected[k], noise = (double)judge->objects[object].noise[k];
         out->value[k] = (float)found[k];
         out->expected[k] = (float)expected[k];
         out->off[k] = (float)off;
-        if (fabs(off) > judge->desc.tolerance * fmax(expected[k], least) + 3.0 * noise) out->failed = 1;
+        if (!(fabs(off) <= judge->desc.tolerance * fmax(expected[k], least) + 3.0 * noise)) out->failed = 1;
     }
 }
 

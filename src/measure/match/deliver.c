@@ -23,6 +23,7 @@ enum { FACTORS = sizeof factors / sizeof *factors };
 /* One material on its way. */
 typedef struct Parcel {
     bool limited;         /* what was taken out of it changes its light */
+    bool open[FACTORS];   /* the file as written has a place for the factor */
     WeftMaterial source;  /* the original, with the means of its textures */
     WeftMaterial written; /* the same of the file as written, under the profile of the target */
     double means[FACTORS][3];
@@ -102,6 +103,15 @@ static WeftResult source_read(Delivering *self, const WeftLog *log, WeftError *e
     return averages_read(self, self->source, false, error);
 }
 
+/* Finds the factors that a material of the file has a place for: no extension is added. */
+static void factors_open(Parcel *parcel, const json_t *material) {
+    for (int f = 0; f < FACTORS; f++) {
+        const MaterialField *field = material_field_of(factors[f]);
+        parcel->open[f] = !material_field_extends(field) ||
+                          json_object_get(json_object_get(material, "extensions"), field->object) != NULL;
+    }
+}
+
 /* Writes the file without what the target does not read. */
 static WeftResult file_limit(Delivering *self, const char *path, WeftError *error) {
     WeftError own;
@@ -113,9 +123,9 @@ static WeftResult file_limit(Delivering *self, const char *path, WeftError *erro
         json_t *materials = json_object_get(rewrite.root, "materials");
         for (int k = 0; k < self->count && result == WEFT_OK; k++) {
             json_t *material = json_array_get(materials, (size_t)k);
-            if (material)
-                result =
-                    viewer_limit(&rewrite, self->target, material, &self->losses, &self->parcels[k].limited, error);
+            if (!material) continue;
+            result = viewer_limit(&rewrite, self->target, material, &self->losses, &self->parcels[k].limited, error);
+            factors_open(&self->parcels[k], material);
         }
         viewer_uses(&rewrite, self->target);
         if (result == WEFT_OK) result = rewrite_save(&rewrite, self->out, error);
@@ -143,10 +153,10 @@ static double even_sky(const WeftReflection *reflection) {
     return (sky[0] + sky[1] + sky[2]) / 3.0;
 }
 
-/* Locks every input but the factors. */
-static void lock_rest(int locked[WEFT_INPUTS_MAX]) {
+/* Locks every input but the factors that can be written. */
+static void lock_rest(const Parcel *parcel, int locked[WEFT_INPUTS_MAX]) {
     for (int k = 0; k < WEFT_INPUTS_MAX; k++) locked[k] = 1;
-    for (int f = 0; f < FACTORS; f++) locked[factors[f]] = 0;
+    for (int f = 0; f < FACTORS; f++) locked[factors[f]] = !parcel->open[f];
 }
 
 /* Leaves no number above what a factor of 1 gives with the means of its textures. */
@@ -192,7 +202,7 @@ static WeftResult parcel_match(Delivering *self, int k, ItemProgress *item_progr
     WeftReflection *copy = NULL, *now = NULL;
     WeftMaterial plain = parcel->source;
     int locked[WEFT_INPUTS_MAX];
-    lock_rest(locked);
+    lock_rest(parcel, locked);
     weft_material_choose(&plain, CHOICE_profile, self->profile);
     WeftResult result = weft_reflection_create(&parcel->source, &parcel->original, error);
     const bool due = is_due(self, parcel);

@@ -60,7 +60,11 @@ static WeftResult make_targets(Coarse *self, WeftError *error) {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, self->depth);
     glDrawBuffers(3, buffers);
     WeftResult result = gl_check(error, "a moving picture");
-    const GLenum status = result == WEFT_OK ? glCheckFramebufferStatus(GL_FRAMEBUFFER) : GL_FRAMEBUFFER_COMPLETE;
+    GLenum status = result == WEFT_OK ? glCheckFramebufferStatus(GL_FRAMEBUFFER) : GL_FRAMEBUFFER_COMPLETE;
+    if (status == GL_FRAMEBUFFER_COMPLETE && result == WEFT_OK) {
+        glBindFramebuffer(GL_FRAMEBUFFER, self->smooth);
+        status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    }
     if (status != GL_FRAMEBUFFER_COMPLETE)
         result = fail(error, WEFT_MESSAGE_GL_CONTEXT, "a moving picture", "driver error 0x%x", status);
     return result;

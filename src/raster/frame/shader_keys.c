@@ -66,14 +66,18 @@ ShaderKey floor_key(const WeftRaster *self, const WeftRasterView *view) {
     return key;
 }
 
+/* Returns true if the factors `ambient` and `reflection` are not both 1. */
+static bool in_parts(const Environment *e) {
+    return e->ambient < 1.0f || e->ambient > 1.0f || e->reflection < 1.0f || e->reflection > 1.0f;
+}
+
 ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMaterial *material) {
     if (self->coarse.resolving) return resolve_key(&material->key);
     ShaderKey key = material->key;
     key.part = (int)view->part;
     if (part_is_property(key.part)) return key;
     if (self->summing) {
-        const Environment *e = &self->scene->environment;
-        key.reference = e->ambient < e->reflection || e->ambient > e->reflection ? 2 : 1;
+        key.reference = in_parts(&self->scene->environment) ? 2 : 1;
         key.bounces = view->bounces;
         return key;
     }

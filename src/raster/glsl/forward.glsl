@@ -220,7 +220,9 @@ void main() {
     fragment = vec4(vec_of(sum) * opacity, opacity);
 #endif
 #ifdef COARSE
-    fragment_polygons = vec4(polygons_open, dot(polygons_shadowed, LUMINANCE)) * opacity;
+    /* Keep below what halves hold: one infinite point would spread over its neighbours. */
+    fragment.rgb = min(fragment.rgb, 65000.0);
+    fragment_polygons = min(vec4(polygons_open, dot(polygons_shadowed, LUMINANCE)) * opacity, 65000.0);
     fragment_guide = coarse_guide(vec_of_dir(at.normal), surface_number);
 #endif
     /* discard comes last, since derivatives of its neighbours need a fragment until here */

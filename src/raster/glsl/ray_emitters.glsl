@@ -36,7 +36,7 @@ EmitterPoint emitter_sample(vec3 here, float u, float v) {
     vec3 to = a.xyz + (part - half_least) * ab.xyz + (v - half_least) * ac.xyz - here;
     float t2 = dot(to, to), t = sqrt(max(t2, 1e-30));
     vec3 wi = to / t, normal = cross(ab.xyz, ac.xyz);
-    float cosine = -dot(wi, normal) * inversesqrt(max(dot(normal, normal), 1e-38));
+    float cosine = -dot(wi, normal) * inversesqrt(max(dot(normal, normal), 1e-30));
     bool live = t2 > 1e-30 && (cosine > 0.0 || ab.w > 0.5);
     return EmitterPoint(wi, light.rgb, live ? emitter_pdf(light.w, ac.w, t, cosine) : 0.0, t);
 }

@@ -39,7 +39,7 @@ vec3 ray_normal(int triangle, int corner) { return ray_texel(int(ray_first.z) + 
 /* Returns the hit of the plane of a triangle, with t below 0 if it is beside the triangle. */
 RayHit ray_meet(Ray r, RayTriangle p) {
     vec3 ab = p.b - p.a, ac = p.c - p.a, h = cross(r.direction, ac), s = r.origin - p.a, q = cross(s, ab);
-    float det = dot(ab, h), inverse = 1.0 / (det == 0.0 ? 1e-38 : det);
+    float det = dot(ab, h), inverse = 1.0 / (det == 0.0 ? 1.0 : det);
     float u = dot(s, h) * inverse, v = dot(r.direction, q) * inverse, t = dot(ac, q) * inverse;
     bool beside = det == 0.0 || u < 0.0 || v < 0.0 || u + v > 1.0;
     return RayHit(beside ? -1.0 : t, -1, u, v);

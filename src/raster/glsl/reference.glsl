@@ -179,7 +179,7 @@ LightMet light_at(Ray r, RayHit hit) {
         int emitter = int(t.emitter) - 1;
         vec4 light = emitter_texel(emitter, 3);
         vec3 normal = cross(t.b - t.a, t.c - t.a);
-        float cosine = -dot(normal, r.direction) * inversesqrt(max(dot(normal, normal), 1e-38));
+        float cosine = -dot(normal, r.direction) * inversesqrt(max(dot(normal, normal), 1e-30));
         bool lit = cosine > 0.0 || emitter_texel(emitter, 1).w > 0.5;
         met.radiance = lit ? light.rgb : vec3(0.0);
         met.pdf = emitter_pdf(light.w, emitter_texel(emitter, 2).w, hit.t, cosine);

@@ -184,7 +184,9 @@ static bool read_image(GraphWalk *walk, const XmlElement *node, MtlxSource *out)
 /* Returns true if both inputs name the same node. */
 static bool is_same_node(const XmlElement *a, const XmlElement *b) {
     const char *first = xml_attribute(a, "nodename"), *second = xml_attribute(b, "nodename");
-    return first && second && strcmp(first, second) == 0;
+    const char *of_first = xml_attribute(a, "output"), *of_second = xml_attribute(b, "output");
+    const bool same_output = of_first && of_second ? strcmp(of_first, of_second) == 0 : of_first == of_second;
+    return first && second && strcmp(first, second) == 0 && same_output;
 }
 
 /* Reads a value of a node without a graph: one number or three. */
@@ -205,11 +207,13 @@ static bool read_multiply(GraphWalk *walk, const XmlElement *node, MtlxSource *o
     if (!a || !b || !follow_or_read(walk, a, out)) return strange(walk, node);
     if (is_same_node(a, b)) {
         if (out->square || out->tangent) return strange(walk, node);
-        out->square = true;
+        out->square = out->file != NULL;
+        for (int c = 0; c < 3 && !out->file; c++) out->factor[c] *= out->factor[c];
         return true;
     }
     if (!follow_or_read(walk, b, &other)) return strange(walk, node);
-    if ((out->file && other.file) || out->square || other.square || other.tangent) return strange(walk, node);
+    if (((out->file || out->tangent) && other.file) || out->square || other.square || other.tangent)
+        return strange(walk, node);
     MtlxSource texture = out->file || out->tangent ? *out : other;
     const float *by = out->file || out->tangent ? other.factor : out->factor;
     for (int c = 0; c < 3; c++) texture.factor[c] *= by[c];

@@ -23,6 +23,7 @@ typedef struct MtlxReader {
     const MtlxNodeInfo *node;
     Material material;             /* numbers of the rows */
     json_t *textures[INPUT_COUNT]; /* owned; NULL: none */
+    float weights[INPUT_COUNT];    /* numbers that colours are multiplied by, where a row has one */
     bool has[INPUT_COUNT];         /* a row has the input */
 } MtlxReader;
 
@@ -133,6 +134,7 @@ static void set_value(MtlxReader *r, const MtlxRow *row, const float v[3]) {
     case MTLX_ALPHA_MODE: m->alpha_mode = (WeftAlphaMode)v[0]; break;
     case MTLX_TWO_SIDED: m->double_sided = v[0] > 0.0f; break;
     case MTLX_WEIGHT:
+        if (row->input >= 0) r->weights[row->input] = v[0];
         for (int c = 0; c < 3; c++) to[c] *= v[0];
         break;
     case MTLX_SQUARE: to[0] = sqrtf(fmaxf(v[0], 0.0f)); break;
@@ -140,6 +142,9 @@ static void set_value(MtlxReader *r, const MtlxRow *row, const float v[3]) {
     case MTLX_SAME: memcpy(to, v, 3 * sizeof *to); break;
     }
 }
+
+/* Returns true if a number is one that an input of type integer can have: a WeftAlphaMode. */
+static bool is_mode(float x) { return is_equal(x, 0.0f) || is_equal(x, 1.0f) || is_equal(x, 2.0f); }
 
 /* Takes what a graph makes of a row's input. */
 static void read_graph(MtlxReader *r, const MtlxRow *row, const XmlElement *input) {
@@ -153,6 +158,8 @@ static void read_graph(MtlxReader *r, const MtlxRow *row, const XmlElement *inpu
                strange ? " (node " : "", strange ? strange->name : "", strange ? ")" : "");
     } else if (tangent) {
         r->material.inputs[row->input].value[0] = atan2f(source.across, source.along);
+    } else if (!source.file && row->type == MTLX_INTEGER && !is_mode(source.factor[0])) {
+        refuse(r, input, "%s: not 0, 1 or 2", row->name);
     } else if (!source.file) {
         set_value(r, row, source.factor);
     } else if (row->rule == MTLX_WEIGHT) {
@@ -176,7 +183,7 @@ static bool read_text(const MtlxRow *row, const char *text, float v[3]) {
     }
     if (!mtlx_numbers(text, v, color ? 3 : 1)) return false;
     if (row->type == MTLX_GREY) v[0] = (v[0] + v[1] + v[2]) / 3.0f;
-    return row->type != MTLX_INTEGER || is_equal(v[0], 0.0f) || is_equal(v[0], 1.0f) || is_equal(v[0], 2.0f);
+    return row->type != MTLX_INTEGER || is_mode(v[0]);
 }
 
 static void read_row(MtlxReader *r, const MtlxRow *row) {
@@ -245,11 +252,11 @@ static json_t *value_json(MtlxReader *r, InputId id) {
 static void weigh_textures(MtlxReader *r) {
     for (const MtlxRow *row = r->node->rows; row->name; row++) {
         json_t *object = row->rule == MTLX_WEIGHT ? r->textures[row->input] : NULL;
-        const XmlElement *input = object ? xml_child(r->shader, row->name) : NULL;
-        float weight, v[3] = {1.0f, 1.0f, 1.0f};
-        if (!input || !mtlx_numbers(xml_attribute(input, "value"), &weight, 1)) continue;
+        float v[3];
+        if (!object) continue;
         for (size_t c = 0; c < 3; c++)
-            v[c] = weight * (float)json_number_value(json_array_get(json_object_get(object, "factor"), c));
+            v[c] =
+                r->weights[row->input] * (float)json_number_value(json_array_get(json_object_get(object, "factor"), c));
         put(r, object, "factor", numbers(r, v, 3));
     }
 }

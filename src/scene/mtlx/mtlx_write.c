@@ -217,7 +217,9 @@ static void put_graph(Document *d) {
     bool any = false;
     for (const MtlxRow *row = rows; row->name; row++) any |= is_made(d, row);
     if (!any) return;
-    fprintf(d->out, "  <nodegraph name=\"maps\">\n");
+    fprintf(d->out, "  <nodegraph name=\"");
+    put_name(d->out, d->writing->name);
+    fprintf(d->out, "_maps\">\n");
     for (d->row = rows; d->row->name; d->row++) {
         if (!is_made(d, d->row)) continue;
         if (d->row->type == MTLX_TANGENT)
@@ -259,7 +261,9 @@ static void put_surface(const Document *d) {
         if (vector && !made) continue;
         fprintf(d->out, "    <input name=\"%s\" type=\"%s\" ", row->name, mtlx_type_name(row->type));
         if (made) {
-            fprintf(d->out, "nodegraph=\"maps\" output=\"%s_out", row->name);
+            fprintf(d->out, "nodegraph=\"");
+            put_name(d->out, d->writing->name);
+            fprintf(d->out, "_maps\" output=\"%s_out", row->name);
         } else {
             fprintf(d->out, "value=\"");
             put_value(d, row);

@@ -15,6 +15,7 @@
 #include "scene/material/u3m_texture.h"
 #include "shading/dialect/tone.h"
 
+enum { STEM = 144 }; /* bytes of a picture's name without its suffix */
 static const size_t FILE_MOST = (size_t)1 << 30;
 
 json_t *u3m_number(float value) {
@@ -63,8 +64,10 @@ static void scale_take(const WeftImage *linear, U3mPicture *picture) {
     const size_t texels = (size_t)linear->width * (size_t)linear->height, channels = (size_t)linear->channels;
     const float *p = linear->pixels;
     picture->scale = 1.0f;
-    for (size_t k = 0; k < texels; k++)
-        picture->scale = fmaxf(picture->scale, number_of(p + k * channels, linear->channels, picture));
+    for (size_t k = 0; k < texels; k++) {
+        const float x = number_of(p + k * channels, linear->channels, picture);
+        if (isfinite(x)) picture->scale = fmaxf(picture->scale, x);
+    }
 }
 
 /* Makes pixels of 8 bits of a channel of 8 bits, else of 16. */
@@ -126,20 +129,28 @@ static WeftResult file_add(U3mPictures *pictures, U3mPicture *picture, const Tex
 }
 
 /* Writes "textures/NAME-front-roughness", of the characters that a path of a U3M may have. */
-static void stem_write(const char *path, const char *name, char stem[128]) {
+static void stem_write(const char *path, const char *name, char stem[STEM]) {
     const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
     const int length = dot ? (int)(dot - base) : (int)strlen(base);
-    snprintf(stem, 128, "textures/%.*s-%s", length < 48 ? length : 48, base, name);
+    snprintf(stem, STEM, "textures/%.*s-%s", length < 48 ? length : 48, base, name);
     for (char *c = stem; *c; c++)
         if ((unsigned char)*c < 0x20 || (unsigned char)*c > 0x7e || strchr("<>:\"\\|$%~?*", *c)) *c = '_';
+}
+
+/* Adds a number to a name that the U3M which was read may have given to a file of its own: another member still shows
+ * that. */
+static void stem_free(const char *taken, char stem[STEM]) {
+    const size_t end = strlen(stem);
+    for (int n = 2; taken && strstr(taken, stem + strlen("textures/")); n++) snprintf(stem + end, STEM - end, "-%d", n);
 }
 
 static WeftResult picture_make(U3mPictures *pictures, U3mPicture *picture, const Texture *texture, const char *name) {
     const WeftImage *image = &pictures->scene->images[texture->image];
     WeftImage linear = {0}, made = {0};
-    char stem[128];
+    char stem[STEM];
     bool copied = false;
     stem_write(pictures->path, name, stem);
+    stem_free(pictures->taken, stem);
     WeftResult result = weft_image_convert_f32(image, picture->color, &linear, pictures->error);
     if (result != WEFT_OK) return result;
     means_take(&linear, picture);

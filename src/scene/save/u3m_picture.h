@@ -27,8 +27,9 @@ typedef struct U3mPicture {
 typedef struct U3mPictures {
     const WeftScene *scene;
     int material;
-    const char *path; /* of the .u3m or .u3ma */
-    double metres;    /* a unit of texture coordinates spans them; 0: as the mesh tells */
+    const char *path;  /* of the .u3m or .u3ma */
+    const char *taken; /* the text of the U3M that was read, whose files keep their names; NULL: none */
+    double metres;     /* a unit of texture coordinates spans them; 0: as the mesh tells */
     U3mPackage *package;
     const WeftLog *log;
     WeftError *error;

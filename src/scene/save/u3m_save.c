@@ -218,6 +218,7 @@ static void write_back(U3mWriter *w, json_t *material) {
     const bool had = w->source && w->source->has_back;
     if (!given) {
         if (had) put(w, material, "back", json_null());
+        w->changed |= had;
         return;
     }
     Material back = scene->materials[scene->material_count + w->index];
@@ -448,6 +449,7 @@ WeftResult weft_scene_save_u3m(const WeftScene *scene, int index, const char *pa
     w.pictures = (U3mPictures){.scene = scene,
                                .material = index,
                                .path = path,
+                               .taken = w.source ? w.source->text.text : NULL,
                                .metres = textile ? textile->metres : 0.0,
                                .log = log,
                                .error = error};
