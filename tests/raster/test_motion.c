@@ -23,7 +23,7 @@ static WeftRaster *raster_of(const WeftScene *scene, WeftGl gl) {
 }
 
 static WeftImage picture(WeftRaster *raster, const WeftRasterView *view) {
-    WeftImage image;
+    WeftImage image = {0};
     WeftError error;
     if (weft_raster_draw(raster, view, &error) != WEFT_OK || weft_raster_image(raster, &image, &error) != WEFT_OK)
         fail_msg("%s", error.text);

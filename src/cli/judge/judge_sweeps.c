@@ -81,17 +81,17 @@ static WeftResult nap_put(SphereSweep *sweep, WeftScene *scene, int k, WeftError
     return result;
 }
 
+static int group_size(const char *group) {
+    int count = 0;
+    for (int k = 0; weft_preset_name(k); k++) count += strcmp(weft_preset_group(k), group) == 0;
+    return count;
+}
+
 /* Returns preset number `number` of a group, which begins again after its last one; NULL where it has none. */
 static const char *preset_of(const char *group, int number) {
-    int count = 0;
-    for (int pass = 0; pass < 2; pass++)
-        for (int k = 0, seen = 0; weft_preset_name(k); k++) {
-            if (strcmp(weft_preset_group(k), group) != 0) continue;
-            if (pass == 0)
-                count++;
-            else if (seen++ == number % count)
-                return weft_preset_name(k);
-        }
+    const int count = group_size(group);
+    for (int k = 0, seen = 0; count > 0 && weft_preset_name(k); k++)
+        if (strcmp(weft_preset_group(k), group) == 0 && seen++ == number % count) return weft_preset_name(k);
     return NULL;
 }
 

@@ -59,7 +59,7 @@ static WeftResult expect(WeftJudge *judge, WeftError *error) {
     judge->noise = alloc_array((size_t)judge->cell_count, sizeof(CellMean));
     WeftResult result = means && judge->noise ? weft_render_aov(judge->render, WEFT_AOV_VARIANCE, &variance, error)
                                               : fail(error, WEFT_MESSAGE_MEMORY, judge->scene->name, NULL);
-    if (result == WEFT_OK) {
+    if (result == WEFT_OK && means && judge->noise) {
         judge_cells(judge, &variance, judge->noise);
         judge_cells(judge, &judge->reference, means);
         expect_objects(judge, means);

@@ -148,11 +148,11 @@ WeftResult judge_find_objects(WeftJudge *judge, WeftError *error) {
     MeshCount *counts = alloc_array((size_t)scene_own_meshes(judge->scene), sizeof(MeshCount));
     WeftResult result = meshes && counts ? map_meshes(judge, meshes, error)
                                          : fail(error, WEFT_MESSAGE_MEMORY, judge->scene->name, NULL);
-    if (result == WEFT_OK) {
+    if (result == WEFT_OK && meshes && counts) {
         count_meshes(judge, meshes, counts);
         result = make_objects(judge, counts, error);
     }
-    if (result == WEFT_OK) result = make_cells(judge, meshes, counts, error);
+    if (result == WEFT_OK && meshes && counts) result = make_cells(judge, meshes, counts, error);
     free(meshes);
     free(counts);
     return result;

@@ -150,6 +150,12 @@ static void judge_object(const WeftJudge *judge, const JudgeCase *c, int object)
     }
 }
 
+/* Returns true if a case has all its arrays. */
+static bool has_arrays(const JudgeCase *c) {
+    return c->found && c->expected && c->noise && c->scales && c->errors && c->best && c->verdict->objects &&
+           c->verdict->causes;
+}
+
 static WeftResult case_begin(const WeftJudge *judge, JudgeCase *c, WeftError *error) {
     WeftImage linear;
     const size_t cells = (size_t)judge->cell_count, objects = (size_t)judge->object_count;
@@ -165,9 +171,7 @@ static WeftResult case_begin(const WeftJudge *judge, JudgeCase *c, WeftError *er
     c->best = alloc_array(objects, sizeof(double));
     c->verdict->objects = alloc_array(objects, sizeof(WeftVerdictObject));
     c->verdict->causes = alloc_array((size_t)judge_cause_count(), sizeof(WeftCauseShare));
-    if (!c->found || !c->expected || !c->noise || !c->scales || !c->errors || !c->best || !c->verdict->objects ||
-        !c->verdict->causes)
-        return fail(error, WEFT_MESSAGE_MEMORY, "a picture to judge", NULL);
+    if (!has_arrays(c)) return fail(error, WEFT_MESSAGE_MEMORY, "a picture to judge", NULL);
     c->verdict->object_count = judge->object_count;
     WeftResult result = judge_linear(c->picture, &linear, error);
     if (result != WEFT_OK) return result;
@@ -245,7 +249,7 @@ static WeftResult try_causes(Trial *trial, WeftError *error) {
     WeftResult result = scene_keep(trial->judge->scene, &kept, error);
     if (result == WEFT_OK && (!trial->given || !trial->errors))
         result = fail(error, WEFT_MESSAGE_MEMORY, "a picture to judge", NULL);
-    for (int k = 0; k < count && result == WEFT_OK; k++) {
+    for (int k = 0; k < count && result == WEFT_OK && trial->given && trial->errors; k++) {
         trial->begun = (double)k / count;
         trial->part = 1.0 / count;
         result = try_cause(trial, k, &kept, error);
@@ -259,7 +263,7 @@ static WeftResult judge_cases(Trial *trial, WeftError *error) {
     int failed = 0;
     for (int k = 0; k < trial->count && result == WEFT_OK; k++) {
         result = case_begin(trial->judge, &trial->cases[k], error);
-        if (result == WEFT_OK) case_compare(trial->judge, &trial->cases[k]);
+        if (result == WEFT_OK && has_arrays(&trial->cases[k])) case_compare(trial->judge, &trial->cases[k]);
         failed += trial->cases[k].verdict->failed;
     }
     if (result == WEFT_OK && failed) result = try_causes(trial, error);

@@ -238,9 +238,9 @@ static void put_graph(Document *d) {
 /* Writes the value of a row without a texture. */
 static void put_value(const Document *d, const MtlxRow *row) {
     const Material *material = d->writing->material;
-    const Input *input = input_of(d, row);
+    const bool own = row->input >= 0 && row->rule != MTLX_WEIGHT && row->rule != MTLX_MAP;
     float v[3] = {1.0f, 1.0f, 1.0f};
-    if (input && row->rule != MTLX_WEIGHT && row->rule != MTLX_MAP) memcpy(v, input->value, sizeof v);
+    if (own) memcpy(v, material->inputs[row->input].value, sizeof v);
     if (row->rule == MTLX_SQUARE) v[0] *= v[0];
     if (row->type == MTLX_GREY) v[1] = v[2] = v[0];
     if (row->rule == MTLX_ALPHA_CUTOFF) v[0] = material->alpha_cutoff;
