@@ -33,7 +33,7 @@ static Constant floats(Operator op, float a, float b) {
     case '+': return of_float(a + b);
     case '-': return of_float(a - b);
     case '*': return of_float(a * b);
-    case '/': return of_float(a / b);
+    case '/': return is_equal(b, 0.0f) ? none : of_float(a / b);
     case '<': return of_bool(a < b);
     case '>': return of_bool(a > b);
     case OPERATOR('<', '='): return of_bool(a <= b);
@@ -95,7 +95,8 @@ Constant constant_binary(Operator op, Constant a, Constant b) {
     return none;
 }
 
-static float per_sqrtf(float x) { return 1.0f / sqrtf(x); }
+/* Returns no number where the result is infinite, of which no constant is made. */
+static float per_sqrtf(float x) { return x > 0.0f ? 1.0f / sqrtf(x) : NAN; }
 static float fractf(float x) { return x - floorf(x); }
 
 static Constant of_one(const char *name, float x) {
