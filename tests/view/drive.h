@@ -58,12 +58,14 @@ static inline bool drive_ended(const Drive *drive) {
 
 static inline void drive_give_up(Drive *drive, const char *why) {
     size_t size;
+    int status = 0;
     if (!drive_ended(drive)) kill(drive->child, SIGKILL);
-    waitpid(drive->child, NULL, 0);
+    waitpid(drive->child, &status, 0);
     char *out = file_bytes("stdout", &size), *err = file_bytes("stderr", &size);
     char *last = out ? strstr(out, "\"message\"") : NULL;
     for (char *p = last; p; p = strstr(p + 1, "\"message\"")) last = p;
-    print_message("%s: said \"%s\", last %.200s\n", why, err ? err : "", last ? last : "nothing");
+    print_message("%s: ended with %d by signal %d, said \"%s\", last %.200s\n", why, WEXITSTATUS(status),
+                  WIFSIGNALED(status) ? WTERMSIG(status) : 0, err ? err : "", last ? last : "nothing");
     free(out);
     free(err);
     fail_msg("%s", why);
