@@ -9,30 +9,39 @@
 
 static double linear_of(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
-/* Returns the place of red, green, blue or alpha among an image's channels, -1 if there is none. With one channel or
- * two, the first is grey and is used for all three colours; with two or four, the last is alpha. */
+/* Returns the place of red, green, blue or alpha among an image's channels, -1 if there is none. */
 static int place_of(int channel, int channels) {
     if (channel == 3) return channels & 1 ? -1 : channels - 1;
     return channels < 3 ? 0 : channel;
 }
 
-/* Returns the mean of a channel over a texture's pixels. color: integers are decoded from sRGB. */
-static double texture_mean(const WeftImage *image, int channel, bool color) {
-    const size_t pixels = (size_t)image->width * (size_t)image->height;
+double texture_value(const WeftImage *image, size_t pixel, int channel, bool color) {
     const int at = place_of(channel, image->channels);
+    const double x = at < 0 ? 1.0 : pixel_value(image, pixel * (size_t)image->channels + (size_t)at);
+    return color && at >= 0 && image->type != WEFT_PIXEL_F32 ? linear_of(x) : x;
+}
+
+TextureChannel texture_channel(const WeftImage *image, int channel, bool color) {
+    TextureChannel out = {true, 1.0, 1.0, 1.0};
     double sum = 0.0;
-    if (at < 0 || pixels == 0) return 1.0;
+    const size_t pixels = (size_t)image->width * (size_t)image->height;
+    if (place_of(channel, image->channels) < 0 || pixels == 0) return out;
+    out.low = (double)INFINITY;
+    out.high = -(double)INFINITY;
     for (size_t k = 0; k < pixels; k++) {
-        const double x = pixel_value(image, k * (size_t)image->channels + (size_t)at);
-        sum += color && image->type != WEFT_PIXEL_F32 ? linear_of(x) : x;
+        const double x = texture_value(image, k, channel, color);
+        sum += x;
+        out.low = fmin(out.low, x);
+        out.high = fmax(out.high, x);
     }
-    return sum / (double)pixels;
+    out.mean = sum / (double)pixels;
+    return out;
 }
 
 /* Makes room for the means of that many textures. */
 static bool make_room(Averages *averages, int textures) {
     if (textures <= averages->count) return true;
-    TextureMean(*grown)[2][4] = realloc_array(averages->means, (size_t)textures, sizeof *grown);
+    TextureChannel(*grown)[2][4] = realloc_array(averages->means, (size_t)textures, sizeof *grown);
     if (!grown) return false;
     memset(grown + averages->count, 0, (size_t)(textures - averages->count) * sizeof *grown);
     averages->means = grown;
@@ -51,8 +60,8 @@ bool averages_of(Averages *averages, const WeftMaterial *material, int input, do
     const bool color = info.kind == WEFT_INPUT_COLOR;
     for (int c = 0; c < (color ? 3 : 1); c++) {
         const int channel = color ? c : of->channel;
-        TextureMean *kept = &averages->means[of->texture - 1][color][channel];
-        if (!kept->done) *kept = (TextureMean){true, texture_mean(&image, channel, color)};
+        TextureChannel *kept = &averages->means[of->texture - 1][color][channel];
+        if (!kept->done) *kept = texture_channel(&image, channel, color);
         means[c] = kept->mean;
     }
     return true;

@@ -12,15 +12,11 @@
 #include "gltf/read/gltf.h"
 #include "measure/match/average.h"
 #include "measure/match/match.h"
+#include "measure/match/match_factor.h"
 #include "measure/match/viewer_reads.h"
 #include "shading/material/choice.h"
 
-/* The inputs that a search may change. */
-static const InputId factors[] = {INPUT_base_color, INPUT_roughness, INPUT_sheen_color, INPUT_sheen_roughness,
-                                  INPUT_specular};
-enum { FACTORS = sizeof factors / sizeof *factors };
-
-/* One material on its way. */
+/* A material on its way. */
 typedef struct Parcel {
     bool limited;         /* what was taken out of it changes its light */
     bool open[FACTORS];   /* the file as written has a place for the factor */
@@ -76,7 +72,7 @@ static WeftResult averages_read(Delivering *self, const WeftScene *scene, bool t
         bool room = true;
         result = weft_scene_material(scene, k, average, error);
         for (int f = 0; f < FACTORS && result == WEFT_OK && to; f++)
-            room = room && averages_of(&averages, average, (int)factors[f], parcel->means[f]);
+            room = room && averages_of(&averages, average, (int)match_factors[f], parcel->means[f]);
         if (result == WEFT_OK) room = room && averages_take(&averages, average);
         if (result == WEFT_OK && !room) result = fail(error, WEFT_MESSAGE_MEMORY, self->path, NULL);
         if (to || self->from >= 0) weft_material_choose(average, CHOICE_profile, to ? self->profile : self->from);
@@ -106,7 +102,7 @@ static WeftResult source_read(Delivering *self, const WeftLog *log, WeftError *e
 /* Finds the factors that a material of the file has a place for: no extension is added. */
 static void factors_open(Parcel *parcel, const json_t *material) {
     for (int f = 0; f < FACTORS; f++) {
-        const MaterialField *field = material_field_of(factors[f]);
+        const MaterialField *field = material_field_of(match_factors[f]);
         parcel->open[f] = !material_field_extends(field) ||
                           json_object_get(json_object_get(material, "extensions"), field->object) != NULL;
     }
@@ -155,15 +151,15 @@ static double even_sky(const WeftReflection *reflection) {
 
 /* Locks every input but the factors that can be written. */
 static void lock_rest(const Parcel *parcel, int locked[WEFT_INPUTS_MAX]) {
-    for (int k = 0; k < WEFT_INPUTS_MAX; k++) locked[k] = 1;
-    for (int f = 0; f < FACTORS; f++) locked[factors[f]] = !parcel->open[f];
+    factors_unlock(locked);
+    for (int f = 0; f < FACTORS; f++) locked[match_factors[f]] |= !parcel->open[f];
 }
 
 /* Leaves no number above what a factor of 1 gives with the means of its textures. */
 static void parcel_clip(Parcel *parcel) {
     for (int f = 0; f < FACTORS; f++)
         for (int c = 0; c < 3; c++) {
-            float *value = &parcel->written.inputs[factors[f]].value[c];
+            float *value = &parcel->written.inputs[match_factors[f]].value[c];
             *value = fminf(*value, (float)parcel->means[f][c]);
         }
 }
@@ -245,33 +241,12 @@ static WeftResult match_all(Delivering *self, WeftError *error) {
     return WEFT_OK;
 }
 
-/* Returns the object of that name in `object`; adds an empty one if there is none. */
-static json_t *member_object(json_t *object, const char *name) {
-    if (!json_object_get(object, name)) json_object_set_new(object, name, json_object());
-    return json_object_get(object, name);
-}
-
-static double rounded(double x) { return round(x * 1e6) / 1e6; }
-
 /* Writes a factor to a material. An extension that the material lacks is not added, since nothing was there to fit. */
 static void factor_write(json_t *material, const MaterialField *field, const float *value) {
     const bool extends = material_field_extends(field);
     json_t *parts = extends ? json_object_get(material, "extensions") : material;
-    json_t *home = extends ? json_object_get(parts, field->object) : member_object(material, field->object);
-    if (!home) return;
-    const json_t *before = json_object_get(home, field->factor);
-    json_t *now = json_array();
-    for (int c = 0; c < material_field_numbers(field); c++) {
-        const json_t *alpha = json_array_get(before, 3); /* NULL, and then 1, if there was none */
-        json_array_append_new(now, json_real(c < 3   ? rounded((double)value[c])
-                                             : alpha ? json_number_value(alpha)
-                                                     : 1.0));
-    }
-    if (material_field_numbers(field) == 1) {
-        json_decref(now);
-        now = json_real(rounded((double)value[0]));
-    }
-    json_object_set_new(home, field->factor, now);
+    json_t *home = extends ? json_object_get(parts, field->object) : factor_home(material, field->object);
+    if (home) factor_put(home, field, value);
 }
 
 /* Writes what a search found, over the means of the textures that stay. */
@@ -280,9 +255,9 @@ static void parcel_write(const Parcel *parcel, json_t *material) {
         float value[3];
         for (int c = 0; c < 3; c++) {
             const double mean = fmax(parcel->means[f][c], 1e-4);
-            value[c] = (float)fmin((double)parcel->written.inputs[factors[f]].value[c] / mean, 1.0);
+            value[c] = (float)fmin((double)parcel->written.inputs[match_factors[f]].value[c] / mean, 1.0);
         }
-        factor_write(material, material_field_of(factors[f]), value);
+        factor_write(material, material_field_of(match_factors[f]), value);
     }
 }
 

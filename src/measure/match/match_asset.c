@@ -9,54 +9,15 @@
 #include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf.h"
 #include "gltf/save/rewrite.h"
-#include "image/pixel.h"
 #include "measure/bsdf/material_key.h"
+#include "measure/match/average.h"
 #include "measure/match/match.h"
 #include "measure/match/match_curves.h"
+#include "measure/match/match_factor.h"
 #include "measure/match/match_place.h"
 #include "measure/match/match_texels.h"
 #include "scene/record/scene.h"
 #include "shading/material/choice.h"
-
-/* The inputs that a match may change. */
-static const InputId factors[] = {INPUT_base_color, INPUT_roughness, INPUT_sheen_color, INPUT_sheen_roughness,
-                                  INPUT_specular};
-enum { FACTORS = sizeof factors / sizeof *factors };
-
-static double linear_of(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
-
-/* Returns the place of red, green, blue or alpha among an image's channels, -1 if there is none. With one channel or
- * two, the first is grey and is used for all three colours; with two or four, the last is alpha. */
-static int place_of(int channel, int channels) {
-    if (channel == 3) return channels & 1 ? -1 : channels - 1;
-    return channels < 3 ? 0 : channel;
-}
-
-/* A channel of a texture, kept for all materials that read it. */
-typedef struct Channel {
-    bool done;
-    double mean;
-    ValueRange range;
-} Channel;
-
-/* Measures a channel over a texture's pixels. color: integers are decoded from sRGB. */
-static Channel channel_of(WeftImage image, int channel, bool color) {
-    Channel out = {true, 1.0, {1.0, 1.0}};
-    double sum = 0.0;
-    size_t pixels = (size_t)image.width * (size_t)image.height;
-    int at = place_of(channel, image.channels);
-    if (at < 0 || pixels == 0) return out;
-    out.range = (ValueRange){(double)INFINITY, -(double)INFINITY};
-    for (size_t k = 0; k < pixels; k++) {
-        double x = pixel_value(&image, k * (size_t)image.channels + (size_t)at);
-        if (color && image.type != WEFT_PIXEL_F32) x = linear_of(x);
-        sum += x;
-        out.range.low = fmin(out.range.low, x);
-        out.range.high = fmax(out.range.high, x);
-    }
-    out.mean = sum / (double)pixels;
-    return out;
-}
 
 /* Returns the range over a texture's pixels of the brightest channel of its colour times a factor. */
 static ValueRange brightness_of(WeftImage image, const float factor[3]) {
@@ -64,10 +25,7 @@ static ValueRange brightness_of(WeftImage image, const float factor[3]) {
     size_t pixels = (size_t)image.width * (size_t)image.height;
     for (size_t k = 0; k < pixels; k++) {
         double most = 0.0;
-        for (int c = 0; c < 3; c++) {
-            double x = pixel_value(&image, k * (size_t)image.channels + (size_t)place_of(c, image.channels));
-            most = fmax(most, x <= 0.0 ? 0.0 : (image.type == WEFT_PIXEL_F32 ? x : linear_of(x)) * (double)factor[c]);
-        }
+        for (int c = 0; c < 3; c++) most = fmax(most, texture_value(&image, k, c, true) * (double)factor[c]);
         range.low = fmin(range.low, most);
         range.high = fmax(range.high, most);
     }
@@ -106,27 +64,29 @@ typedef struct AssetSearch {
     WeftProgress progress; /* may be NULL */
     void *user;
     LoopWatch watch;
-    Channel (*channels)[2][4]; /* [texture - 1][0: data, 1: sRGB colours][channel] */
-    AssetMaterial *materials;  /* `count` */
-    AverageSearch *searches;   /* `search_count`, at most `count` */
-    NodeSearch *nodes;         /* of the phase in hand */
+    TextureChannel (*channels)[2][4]; /* [texture - 1][0: data, 1: sRGB colours][channel] */
+    AssetMaterial *materials;         /* `count` */
+    AverageSearch *searches;          /* `search_count`, at most `count` */
+    NodeSearch *nodes;                /* of the phase in hand */
     WeftAssetMatch *matches;
     int count, search_count;
     int done, whole, now; /* runs of phases that are done, of all phases, of the phase in hand */
 } AssetSearch;
 
-static const Channel *channel_at(AssetSearch *self, const WeftInput *input, int channel, bool color) {
-    static const Channel one = {true, 1.0, {1.0, 1.0}};
+static const TextureChannel *channel_at(AssetSearch *self, const WeftInput *input, int channel, bool color) {
+    static const TextureChannel one = {true, 1.0, 1.0, 1.0};
     if (!input->texture) return &one;
-    Channel *kept = &self->channels[input->texture - 1][color][channel];
-    if (!kept->done) *kept = channel_of(weft_scene_texture(self->scene, input->texture), channel, color);
+    TextureChannel *kept = &self->channels[input->texture - 1][color][channel];
+    if (kept->done) return kept;
+    const WeftImage image = weft_scene_texture(self->scene, input->texture);
+    *kept = texture_channel(&image, channel, color);
     return kept;
 }
 
 static void means_of(AssetSearch *self, const WeftMaterial *material, double means[FACTORS][3]) {
     for (int f = 0; f < FACTORS; f++) {
-        const WeftInput *input = &material->inputs[factors[f]];
-        bool color = input_value_count(factors[f]) > 1;
+        const WeftInput *input = &material->inputs[match_factors[f]];
+        bool color = input_value_count(match_factors[f]) > 1;
         for (int c = 0; c < 3; c++) means[f][c] = channel_at(self, input, color ? c : input->channel, color)->mean;
     }
 }
@@ -147,9 +107,9 @@ static void to_average(AssetSearch *self, WeftMaterial *material) {
 
 /* Returns the range of a number times its texture. */
 static ValueRange range_of(AssetSearch *self, const WeftInput *input) {
-    const ValueRange range = channel_at(self, input, input->channel, false)->range;
+    const TextureChannel *channel = channel_at(self, input, input->channel, false);
     const double factor = (double)input->value[0];
-    return (ValueRange){range.low * factor, range.high * factor};
+    return (ValueRange){channel->low * factor, channel->high * factor};
 }
 
 /* Finds what the texels of a material vary in. */
@@ -166,8 +126,8 @@ static MatchCurves curves_of(AssetSearch *self, const WeftMaterial *material) {
 /* Undoes to_average: divides the numbers by the means. */
 static void to_factors(WeftMaterial *material, double means[FACTORS][3]) {
     for (int f = 0; f < FACTORS; f++)
-        for (int c = 0; c < input_value_count(factors[f]); c++) {
-            float *value = &material->inputs[factors[f]].value[c];
+        for (int c = 0; c < input_value_count(match_factors[f]); c++) {
+            float *value = &material->inputs[match_factors[f]].value[c];
             if (means[f][c] > 1e-4) *value = (float)((double)*value / means[f][c]);
         }
 }
@@ -175,16 +135,16 @@ static void to_factors(WeftMaterial *material, double means[FACTORS][3]) {
 /* Takes over the factors, of which glTF allows 1 at most. */
 static void factors_take(const WeftMaterial *from, WeftMaterial *to) {
     for (int f = 0; f < FACTORS; f++)
-        for (int c = 0; c < input_value_count(factors[f]); c++)
-            to->inputs[factors[f]].value[c] = fminf(from->inputs[factors[f]].value[c], 1.0f);
+        for (int c = 0; c < input_value_count(match_factors[f]); c++)
+            to->inputs[match_factors[f]].value[c] = fminf(from->inputs[match_factors[f]].value[c], 1.0f);
 }
 
 /* Returns 1 if a factor was above 1 whose texture was not rewritten. */
 static int is_clipped(const WeftMaterial *material, uint64_t maps) {
     int clipped = 0;
     for (int f = 0; f < FACTORS; f++)
-        for (int c = 0; c < input_value_count(factors[f]); c++)
-            clipped |= !(maps >> factors[f] & 1) && material->inputs[factors[f]].value[c] > 1.0f + 1e-6f;
+        for (int c = 0; c < input_value_count(match_factors[f]); c++)
+            clipped |= !(maps >> match_factors[f] & 1) && material->inputs[match_factors[f]].value[c] > 1.0f + 1e-6f;
     return clipped;
 }
 
@@ -193,34 +153,16 @@ static bool has_sheen(const WeftMaterial *material) {
     return !material->unlit && color[0] + color[1] + color[2] > 0.0f;
 }
 
-/* Returns the object of that name in `object`; adds an empty one if there is none. */
-static json_t *member_object(json_t *object, const char *name) {
-    json_t *value = json_object_get(object, name);
-    if (value) return value;
-    json_object_set_new(object, name, json_object());
-    return json_object_get(object, name);
-}
-
 /* Writes a factor that has changed to the JSON. */
 static WeftResult factor_write(Rewrite *rewrite, json_t *material, const MaterialField *factor, const float *value,
                                WeftError *error) {
     const bool extends = material_field_extends(factor);
-    json_t *home = member_object(extends ? member_object(material, "extensions") : material, factor->object);
+    json_t *home = factor_home(extends ? factor_home(material, "extensions") : material, factor->object);
     if (extends) {
         WeftResult result = rewrite_uses(rewrite, factor->object, error);
         if (result != WEFT_OK) return result;
     }
-    if (material_field_numbers(factor) == 1) {
-        json_object_set_new(home, factor->factor, json_real(round((double)value[0] * 1e6) / 1e6));
-        return WEFT_OK;
-    }
-    json_t *before = json_object_get(home, factor->factor), *now = json_array();
-    for (int c = 0; c < material_field_numbers(factor); c++) {
-        const json_t *alpha = json_array_get(before, 3); /* NULL, and then 1, if there was none */
-        double kept = alpha ? json_number_value(alpha) : 1.0;
-        json_array_append_new(now, json_real(c < 3 ? round((double)value[c] * 1e6) / 1e6 : kept));
-    }
-    json_object_set_new(home, factor->factor, now);
+    factor_put(home, factor, value);
     return WEFT_OK;
 }
 
@@ -234,20 +176,12 @@ static WeftResult material_write(Rewrite *rewrite, int index, const WeftAssetMat
     json_t *material = json_array_get(json_object_get(rewrite->root, "materials"), (size_t)index);
     WeftResult result = WEFT_OK;
     for (int f = 0; f < FACTORS && material && result == WEFT_OK; f++) {
-        const float *was = match->copied.inputs[factors[f]].value, *now = match->matched.inputs[factors[f]].value;
-        if (!same(was, now, input_value_count(factors[f])))
-            result = factor_write(rewrite, material, material_field_of(factors[f]), now, error);
+        const float *was = match->copied.inputs[match_factors[f]].value,
+                    *now = match->matched.inputs[match_factors[f]].value;
+        if (!same(was, now, input_value_count(match_factors[f])))
+            result = factor_write(rewrite, material, material_field_of(match_factors[f]), now, error);
     }
     return result;
-}
-
-/* Locks every input but those of `factors`. */
-static void lock_rest(int locked[WEFT_INPUTS_MAX]) {
-    for (int k = 0; k < WEFT_INPUTS_MAX; k++) {
-        locked[k] = 1;
-        for (int f = 0; f < FACTORS; f++)
-            if ((int)factors[f] == k) locked[k] = 0;
-    }
 }
 
 static bool same_range(ValueRange a, ValueRange b) {
@@ -320,7 +254,7 @@ static void node_prepare(const AssetSearch *self, int phase, NodeSearch *run) {
     }
     run->node = (CurveNode){.from = search->average, .to = search->average};
     weft_material_choose(&run->node.to, CHOICE_profile, self->to);
-    lock_rest(run->node.locked);
+    factors_unlock(run->node.locked);
     /* the mean is no measure for texels that differ much, and the specular has no texture that could follow them */
     run->node.locked[INPUT_specular] |= curves_vary_sheen(&search->curves);
 }

@@ -8,6 +8,7 @@
 #include "gltf/asset/material_fields.h"
 #include "image/pixel.h"
 #include "measure/bsdf/halton.h"
+#include "measure/match/match_factor.h"
 #include "measure/match/match_place.h"
 #include "shading/dialect/tone.h"
 #include "shading/material/choice.h"
@@ -277,19 +278,11 @@ static WeftResult canvas_for(TexelWork *self, TexelEdit *edit, WeftError *error)
     return result;
 }
 
-/* Returns the object of that name in `object`; adds an empty one if there is none. */
-static json_t *member_object(json_t *object, const char *name) {
-    json_t *value = json_object_get(object, name);
-    if (value) return value;
-    json_object_set_new(object, name, json_object());
-    return json_object_get(object, name);
-}
-
 /* Makes an input name a new texture. */
 static WeftResult info_set(json_t *material, const TexelEdit *edit, int texture, const char *name, WeftError *error) {
     const MaterialField *field = material_field_of(edit->input);
     json_t *home =
-        member_object(material_field_extends(field) ? member_object(material, "extensions") : material, field->object);
+        factor_home(material_field_extends(field) ? factor_home(material, "extensions") : material, field->object);
     json_t *info = edit->texture < 0 ? json_deep_copy(edit->info) : json_incref(edit->info);
     int failed = json_object_set_new(info, "index", json_integer(texture));
     failed |= json_object_set_new(home, field->texture, info);
