@@ -8,22 +8,9 @@
 
 static WeftResult build(Coarse *self, const TextDesc *desc, WeftError *error) {
     static const char *const samplers[] = {"coarse_light", "coarse_polygons", "coarse_guides"};
-    const TextDesc no_tables = {.language = desc->language, .folder = desc->folder};
-    Text vertex, fragment;
-    WeftError failure = {0};
-    text_begin(&vertex, &no_tables);
-    text_include(&vertex, "raster/glsl/screen.glsl");
-    text_begin(&fragment, &no_tables);
-    text_include(&fragment, "raster/glsl/coarse_filter.glsl");
-    if (text_end(&vertex, &failure) == WEFT_OK && text_end(&fragment, &failure) == WEFT_OK)
-        self->program = program_create("shadows of a moving picture", (ShaderSource){vertex.bytes, &vertex},
-                                       (ShaderSource){fragment.bytes, &fragment}, &failure);
-    text_free(&vertex);
-    text_free(&fragment);
-    if (!self->program) {
-        if (error) *error = failure;
-        return failure.result;
-    }
+    const WeftResult result =
+        program_on_screen("shadows of a moving picture", "raster/glsl/coarse_filter.glsl", desc, &self->program, error);
+    if (result != WEFT_OK) return result;
     glUseProgram(self->program);
     for (int k = 0; k < 3; k++) glUniform1i(glGetUniformLocation(self->program, samplers[k]), k);
     glUniform1i(glGetUniformLocation(self->program, "coarse_side"), COARSE_SIDE);

@@ -3,6 +3,7 @@
 #include "raster/frame/picture_block.h"
 #include "raster/frame/shader_keys.h"
 #include "raster/material/part.h"
+#include "scene/light/environment.h"
 
 bool is_coarse(const WeftRasterView *view) { return view->shading_rate > 1 && !part_is_property((int)view->part); }
 
@@ -66,18 +67,13 @@ ShaderKey floor_key(const WeftRaster *self, const WeftRasterView *view) {
     return key;
 }
 
-/* Returns true if the factors `ambient` and `reflection` are not both 1. */
-static bool in_parts(const Environment *e) {
-    return e->ambient < 1.0f || e->ambient > 1.0f || e->reflection < 1.0f || e->reflection > 1.0f;
-}
-
 ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMaterial *material) {
     if (self->coarse.resolving) return resolve_key(&material->key);
     ShaderKey key = material->key;
     key.part = (int)view->part;
     if (part_is_property(key.part)) return key;
     if (self->summing) {
-        key.reference = in_parts(&self->scene->environment) ? 2 : 1;
+        key.reference = environment_in_parts(&self->scene->environment) ? 2 : 1;
         key.bounces = view->bounces;
         return key;
     }

@@ -11,22 +11,8 @@
 enum { START = 2 }; /* index of the picture from before */
 
 static WeftResult build(Sums *self, const TextDesc *desc, WeftError *error) {
-    const TextDesc no_tables = {.language = desc->language, .folder = desc->folder};
-    Text vertex, fragment;
-    WeftError failure = {0};
-    text_begin(&vertex, &no_tables);
-    text_include(&vertex, "raster/glsl/screen.glsl");
-    text_begin(&fragment, &no_tables);
-    text_include(&fragment, "raster/glsl/sum.glsl");
-    if (text_end(&vertex, &failure) == WEFT_OK && text_end(&fragment, &failure) == WEFT_OK)
-        self->program = program_create("sum of frames", (ShaderSource){vertex.bytes, &vertex},
-                                       (ShaderSource){fragment.bytes, &fragment}, &failure);
-    text_free(&vertex);
-    text_free(&fragment);
-    if (!self->program) {
-        if (error) *error = failure;
-        return failure.result;
-    }
+    const WeftResult result = program_on_screen("sum of frames", "raster/glsl/sum.glsl", desc, &self->program, error);
+    if (result != WEFT_OK) return result;
     glUseProgram(self->program);
     glUniform1i(glGetUniformLocation(self->program, "sum_first"), 0);
     glUniform1i(glGetUniformLocation(self->program, "sum_second"), 1);

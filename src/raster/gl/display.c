@@ -20,21 +20,11 @@ static void set_program(Display *self, GLuint program) {
 
 /* Compiles the program. If that fails, the one before stays in use. */
 static void build(Display *self, const TextDesc *desc) {
-    const TextDesc no_tables = {.language = desc->language, .folder = desc->folder};
-    Text vertex, fragment;
-    GLuint made = 0;
+    unsigned made = 0;
     self->stale = false;
     self->error = (WeftError){0};
-    text_begin(&vertex, &no_tables);
-    text_include(&vertex, "raster/glsl/screen.glsl");
-    text_begin(&fragment, &no_tables);
-    text_include(&fragment, "raster/glsl/display.glsl");
-    if (text_end(&vertex, &self->error) == WEFT_OK && text_end(&fragment, &self->error) == WEFT_OK)
-        made = program_create("display", (ShaderSource){vertex.bytes, &vertex},
-                              (ShaderSource){fragment.bytes, &fragment}, &self->error);
-    text_free(&vertex);
-    text_free(&fragment);
-    if (made) set_program(self, made);
+    if (program_on_screen("display", "raster/glsl/display.glsl", desc, &made, &self->error) == WEFT_OK)
+        set_program(self, made);
 }
 
 WeftResult display_draw(Display *self, const TextDesc *desc, const Target *target, const WeftRasterShow *show,

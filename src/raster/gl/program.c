@@ -42,3 +42,26 @@ unsigned program_create(const char *name, ShaderSource vertex, ShaderSource frag
     if (f) glDeleteShader(f);
     return program;
 }
+
+WeftResult program_on_screen(const char *name, const char *file, const TextDesc *desc, unsigned *program,
+                             WeftError *error) {
+    const TextDesc no_tables = {.language = desc->language, .folder = desc->folder};
+    Text vertex, fragment;
+    WeftError failure = {0};
+    unsigned made = 0;
+    text_begin(&vertex, &no_tables);
+    text_include(&vertex, "raster/glsl/screen.glsl");
+    text_begin(&fragment, &no_tables);
+    text_include(&fragment, file);
+    if (text_end(&vertex, &failure) == WEFT_OK && text_end(&fragment, &failure) == WEFT_OK)
+        made = program_create(name, (ShaderSource){vertex.bytes, &vertex}, (ShaderSource){fragment.bytes, &fragment},
+                              &failure);
+    text_free(&vertex);
+    text_free(&fragment);
+    if (made) {
+        *program = made;
+        return WEFT_OK;
+    }
+    if (error) *error = failure;
+    return failure.result;
+}

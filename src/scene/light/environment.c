@@ -56,6 +56,10 @@ WeftResult environment_studio(WeftImage *out, WeftError *error) {
     return WEFT_OK;
 }
 
+bool environment_in_parts(const Environment *e) {
+    return e->ambient < 1.0f || e->ambient > 1.0f || e->reflection < 1.0f || e->reflection > 1.0f;
+}
+
 void environment_give_way(WeftScene *scene) {
     const float fill = 0.4f;
     bool lit = scene->light_count > 0;

@@ -8,6 +8,7 @@
 #include "base/steady_clock.h"
 #include "base/thread.h"
 #include "scene/light/backdrop.h"
+#include "scene/light/environment.h"
 #include "scene/light/polygons.h"
 #include "scene/record/camera.h"
 #include "trace/frame/film_tile.h"
@@ -178,11 +179,6 @@ static bool any_emits(const WeftRender *render) {
     return any;
 }
 
-/* Returns true if the factors `ambient` and `reflection` are not both 1. */
-static bool in_parts(const Environment *e) {
-    return e->ambient < 1.0f || e->ambient > 1.0f || e->reflection < 1.0f || e->reflection > 1.0f;
-}
-
 static void set_context(WeftRender *render) {
     const WeftRenderDesc *d = &render->picture.desc;
     const View *view = &render->picture.lens.view;
@@ -197,7 +193,7 @@ static void set_context(WeftRender *render) {
                              .shadows = !d->no_shadows,
                              .lift = !d->no_lift,
                              .stages = d->stages != 0,
-                             .sky_in_parts = in_parts(&render->scene->environment),
+                             .sky_in_parts = environment_in_parts(&render->scene->environment),
                              .first_hits = d->first_hits != 0,
                              .places = d->places || d->mattes,
                              .slots = d->slots != 0,
