@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
+
 /* The functions that jansson allocated with before: those of the C library or of the program. */
 static json_malloc_t allocate;
 static json_free_t release;
@@ -39,4 +41,9 @@ const char *json_but(const json_t *value, char text[JSON_SHOWN]) {
     if (words) snprintf(text, JSON_SHOWN, ", not %.36s%s", words, strlen(words) > 36 ? " ..." : "");
     free(words);
     return text;
+}
+
+json_t *json_of_float(float value) {
+    char text[NUMBER_TEXT];
+    return json_real(strtod(number_shortest(value, text), NULL));
 }

@@ -3,7 +3,10 @@
 
 #include <locale.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+
+#include "base/equal.h"
 
 const char *number_prefix(const char *text, float *value) {
     locale_t locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
@@ -12,6 +15,14 @@ const char *number_prefix(const char *text, float *value) {
     *value = strtof_l(text, &end, locale);
     freelocale(locale);
     return end != text && isfinite(*value) ? end : NULL;
+}
+
+const char *number_shortest(float value, char text[NUMBER_TEXT]) {
+    for (int digits = 6; digits <= 9; digits++) {
+        snprintf(text, NUMBER_TEXT, "%.*g", digits, (double)value);
+        if (is_equal(strtof(text, NULL), value) && is_equal((float)strtod(text, NULL), value)) break;
+    }
+    return text;
 }
 
 bool parse_numbers(const char *text, char separator, int count, float *values) {

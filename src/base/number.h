@@ -1,4 +1,4 @@
-/* number.h - parsing of numbers that people type */
+/* number.h - numbers that people type are parsed, and printed as the shortest decimals that are read back the same */
 #pragma once
 
 #include <stdbool.h>
@@ -6,6 +6,11 @@
 /* Reads the number that text starts with, with a point as decimal sign in any locale. Returns the text after it, or
  * NULL if there is no number or it is not finite. */
 const char *number_prefix(const char *text, float *value);
+
+enum { NUMBER_TEXT = 32 };
+
+/* Prints the shortest decimal that is read as this float, also by way of a double. Returns text. */
+const char *number_shortest(float value, char text[NUMBER_TEXT]);
 
 /* Reads one finite number and nothing else. */
 bool parse_number(const char *text, float *value);

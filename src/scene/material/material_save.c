@@ -9,6 +9,7 @@
 #include "base/equal.h"
 #include "base/fail.h"
 #include "base/file.h"
+#include "base/json.h"
 #include "base/pi.h"
 #include "brdf/measured.h"
 #include "scene/material/cloth_file.h"
@@ -40,18 +41,6 @@ static void put(Writer *w, json_t *object, const char *key, json_t *value) {
     if (json_object_set_new(object, key, value) != 0) no_memory(w);
 }
 
-/* Returns the shortest decimal that is read as this float. */
-static json_t *number(float value) {
-    double shortest = (double)value;
-    for (int digits = 6; digits <= 9; digits++) {
-        char text[32];
-        snprintf(text, sizeof text, "%.*g", digits, (double)value);
-        shortest = strtod(text, NULL);
-        if (is_equal((float)shortest, value)) break;
-    }
-    return json_real(shortest);
-}
-
 /* Returns the degrees that are read as these radians, or come nearest. */
 static float degrees(float radians) {
     const float unit = PI_FLOAT / 180.0f;
@@ -65,7 +54,7 @@ static float degrees(float radians) {
 static json_t *numbers(Writer *w, const float *values, int count) {
     json_t *array = json_array();
     for (int k = 0; k < count; k++)
-        if (json_array_append_new(array, number(values[k])) != 0) no_memory(w);
+        if (json_array_append_new(array, json_of_float(values[k])) != 0) no_memory(w);
     return array;
 }
 
@@ -74,7 +63,7 @@ static json_t *value_json(Writer *w, const Input *input, WeftInputKind kind) {
     bool grey = !(v[0] < v[1] || v[0] > v[1] || v[0] < v[2] || v[0] > v[2]);
     if (kind == WEFT_INPUT_COLOR && !grey) return numbers(w, v, 3);
     bool angle = kind == WEFT_INPUT_ANGLE || kind == WEFT_INPUT_DIRECTION;
-    return number(angle ? degrees(v[0]) : v[0]);
+    return json_of_float(angle ? degrees(v[0]) : v[0]);
 }
 
 /* Returns the absolute folder of a path, with a slash at its end, or NULL. The caller frees it. */
@@ -212,13 +201,13 @@ static json_t *measured_json(Writer *w, const Measured *measured) {
 static void write_rest(Writer *w, const Material *material) {
     static const char *const modes[] = {"opaque", "mask", "blend"}; /* as WeftAlphaMode */
     put(w, w->root, "alpha_mode", json_string(modes[material->alpha_mode]));
-    put(w, w->root, "alpha_cutoff", number(material->alpha_cutoff));
+    put(w, w->root, "alpha_cutoff", json_of_float(material->alpha_cutoff));
     if (material->unlit) put(w, w->root, "unlit", json_true());
     if (material->cloth) put(w, w->root, "weave", weave_json(w, w->scene->cloths[material->cloth - 1]));
     if (material->measured) put(w, w->root, "measured", measured_json(w, w->scene->measured[material->measured - 1]));
     for (int k = 0; k < WEFT_HAIR_NUMBERS; k++)
         if (!is_equal(material->hair[k], hair_infos[k].initial))
-            put(w, w->root, hair_infos[k].name, number(material->hair[k]));
+            put(w, w->root, hair_infos[k].name, json_of_float(material->hair[k]));
     put(w, w->root, "double_sided", json_boolean(material->double_sided));
 }
 

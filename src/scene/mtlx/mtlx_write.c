@@ -2,11 +2,11 @@
 
 #include <ctype.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/equal.h"
 #include "base/fail.h"
+#include "base/number.h"
 #include "scene/record/material_at.h"
 #include "shading/material/choice.h"
 #include "weft/version.h"
@@ -20,20 +20,9 @@ typedef struct Document {
     FILE *out;
 } Document;
 
-enum { NUMBER = 32 };
-
-/* Writes the shortest decimal that is read as this float. */
-static const char *decimal(float value, char text[NUMBER]) {
-    for (int digits = 6; digits <= 9; digits++) {
-        snprintf(text, NUMBER, "%.*g", digits, (double)value);
-        if (is_equal(strtof(text, NULL), value)) break;
-    }
-    return text;
-}
-
 static void put_numbers(FILE *out, const float *values, int count) {
-    char text[NUMBER];
-    for (int k = 0; k < count; k++) fprintf(out, "%s%s", k ? ", " : "", decimal(values[k], text));
+    char text[NUMBER_TEXT];
+    for (int k = 0; k < count; k++) fprintf(out, "%s%s", k ? ", " : "", number_shortest(values[k], text));
 }
 
 /* Writes a text as an attribute's value; characters that XML has not are left out. */

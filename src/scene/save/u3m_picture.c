@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/equal.h"
 #include "base/fail.h"
 #include "base/file.h"
+#include "base/json.h"
 #include "base/pi.h"
 #include "image/codec.h"
 #include "image/pixel.h"
@@ -17,17 +17,6 @@
 
 enum { STEM = 144 }; /* bytes of a picture's name without its suffix */
 static const size_t FILE_MOST = (size_t)1 << 30;
-
-json_t *u3m_number(float value) {
-    double shortest = (double)value;
-    for (int digits = 6; digits <= 9; digits++) {
-        char text[32];
-        snprintf(text, sizeof text, "%.*g", digits, (double)value);
-        shortest = strtod(text, NULL);
-        if (is_equal((float)shortest, value)) break;
-    }
-    return json_real(shortest);
-}
 
 static const Texture *texture_of(const U3mPictures *pictures, const Input *input) {
     return &pictures->scene->textures[input->texture - 1];
@@ -219,12 +208,12 @@ json_t *u3m_picture_image(const U3mPictures *pictures, const Input *input, const
     json_t *sides[2], *dpi[2];
     for (int k = 0; k < 2; k++) {
         const double mm = 1e3 * unit / fmax((double)lengths[k], 1e-6);
-        sides[k] = u3m_number((float)mm);
-        dpi[k] = u3m_number((float)((double)pixels[k] * 25.4 / mm));
+        sides[k] = json_of_float((float)mm);
+        dpi[k] = json_of_float((float)((double)pixels[k] * 25.4 / mm));
     }
     place_warn(pictures, input, texture, metres, name);
     const float rotation = atan2f(m[1], m[0]) * (180.0f / PI_FLOAT);
     return json_pack("{s:o, s:o, s:{s:o, s:o}, s:s, s:{s:s, s:o}}", "width", sides[0], "height", sides[1], "dpi", "x",
                      dpi[0], "y", dpi[1], "path", picture->path, "repeat", "mode", modes[mode], "rotation",
-                     u3m_number(rotation));
+                     json_of_float(rotation));
 }

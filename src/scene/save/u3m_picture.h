@@ -45,6 +45,3 @@ WeftResult u3m_picture_add(U3mPictures *pictures, const Input *input, U3mPixels 
 /* Returns the member "image" of a texture: the file, its millimetres on the mesh of the material and its repeat, with a
  * warning of what these cannot say. NULL if memory is short. */
 json_t *u3m_picture_image(const U3mPictures *pictures, const Input *input, const U3mPicture *picture, const char *name);
-
-/* Returns the shortest decimal that is read as this float. */
-json_t *u3m_number(float value);

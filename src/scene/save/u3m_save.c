@@ -63,8 +63,8 @@ static float encoded(float linear) {
 }
 
 static json_t *color_json(const float linear[3]) {
-    return json_pack("{s:o, s:o, s:o}", "r", u3m_number(encoded(linear[0])), "g", u3m_number(encoded(linear[1])), "b",
-                     u3m_number(encoded(linear[2])));
+    return json_pack("{s:o, s:o, s:o}", "r", json_of_float(encoded(linear[0])), "g", json_of_float(encoded(linear[1])),
+                     "b", json_of_float(encoded(linear[2])));
 }
 
 /* A member of a visual part that is written: the field, the part it is of, and its input. */
@@ -110,7 +110,8 @@ static json_t *number_texture(const U3mMember *member, const U3mPicture *picture
                 offset = angle ? number_of(member, x) : (0.0f - member->field->offset) / member->field->scale;
     *mean = angle ? picture->mean[0] + offset : x * picture->mean[0] / member->field->scale + offset;
     *mean = angle ? *mean - floorf(*mean) : fminf(fmaxf(*mean, member->field->low), member->field->high);
-    return json_pack("{s:o, s:o, s:o}", "factor", u3m_number(factor), "offset", u3m_number(offset), "image", image);
+    return json_pack("{s:o, s:o, s:o}", "factor", json_of_float(factor), "offset", json_of_float(offset), "image",
+                     image);
 }
 
 static json_t *texture_json(U3mWriter *w, const U3mMember *member, float mean[3]) {
@@ -123,7 +124,8 @@ static json_t *texture_json(U3mWriter *w, const U3mMember *member, float mean[3]
     if (w->result != WEFT_OK) return NULL;
     json_t *image = u3m_picture_image(&w->pictures, input, picture, name);
     if (field->kind == U3M_NUMBER) return number_texture(member, picture, image, mean);
-    if (field->kind == U3M_NORMAL) return json_pack("{s:o, s:o}", "scale", u3m_number(input->value[0]), "image", image);
+    if (field->kind == U3M_NORMAL)
+        return json_pack("{s:o, s:o}", "scale", json_of_float(input->value[0]), "image", image);
     for (int c = 0; c < 3; c++) mean[c] = input->value[c] * picture->mean[c];
     return json_pack("{s:s, s:o, s:o}", "mode", "multiply", "factor", color_json(input->value), "image", image);
 }
@@ -142,7 +144,7 @@ static json_t *member_json(U3mWriter *w, const U3mMember *member) {
     }
     if (field->kind == U3M_NORMAL)
         return json_pack("{s:{s:i, s:i, s:i}, s:o}", "constant", "x", 0, "y", 0, "z", 1, "texture", texture);
-    json_t *value = field->kind == U3M_COLOR ? color_json(constant) : u3m_number(within(w, member, constant[0]));
+    json_t *value = field->kind == U3M_COLOR ? color_json(constant) : json_of_float(within(w, member, constant[0]));
     return json_pack("{s:o, s:o}", "constant", value, "texture", texture);
 }
 
@@ -150,7 +152,7 @@ static json_t *member_json(U3mWriter *w, const U3mMember *member) {
 static json_t *initial_json(const U3mField *field) {
     static const float white[3] = {1.0f, 1.0f, 1.0f};
     return json_pack("{s:o, s:n}", "constant",
-                     field->kind == U3M_COLOR ? color_json(white) : u3m_number(field->initial), "texture");
+                     field->kind == U3M_COLOR ? color_json(white) : json_of_float(field->initial), "texture");
 }
 
 /* Returns true if an input is as it was read. */
