@@ -5,6 +5,7 @@
 set -eu
 program=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
+. "$here/browser.sh"
 for tool in node npm chromium; do
     command -v "$tool" >/dev/null || {
         echo "weft: $tool is not here: script/install node browser" >&2
@@ -31,18 +32,6 @@ while read -r name material most; do
 done <<END
 $cases
 END
-true >chromium.log # before it is looked at
-chromium --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --allow-file-access-from-files \
-    --user-data-dir="$PWD/profile" --enable-logging=stderr "file://$PWD/deliver.html" >/dev/null 2>chromium.log &
-browser=$!
-trap 'kill $browser 2>/dev/null || true' EXIT
-seconds=0
-until grep -q '"all done"' chromium.log; do
-    kill -0 $browser 2>/dev/null && [ $((seconds += 1)) -lt 180 ] || {
-        echo "weft: the browser did not finish: $PWD/chromium.log" >&2
-        exit 1
-    }
-    sleep 1
-done
+browse 180 deliver.html --use-angle=swiftshader --enable-unsafe-swiftshader --allow-file-access-from-files
 # shellcheck disable=SC2086 # the bounds are words
 node "$here/deliver.mjs" chromium.log $bounds

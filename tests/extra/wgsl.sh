@@ -4,6 +4,7 @@
 set -eu
 questions=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
+. "$here/browser.sh"
 command -v chromium >/dev/null || {
     echo "weft: chromium is not here: script/install browser" >&2
     exit 4
@@ -12,19 +13,7 @@ mkdir -p "$2/wgsl"
 cd "$2/wgsl"
 cp "$here/wgsl.html" .
 "$questions" >models.js
-# Its virtual time does not wait for a GPU, so the browser stays until the page has said all it has to say.
-chromium --headless --no-sandbox --enable-unsafe-webgpu --enable-features=Vulkan,WebGPU --use-webgpu-adapter=swiftshader \
-    --user-data-dir="$PWD/profile" --enable-logging=stderr "file://$PWD/wgsl.html" >/dev/null 2>chromium.log &
-browser=$!
-trap 'kill $browser 2>/dev/null || true' EXIT
-seconds=0
-until grep -q '"all done"' chromium.log; do
-    kill -0 $browser 2>/dev/null && [ $((seconds += 1)) -lt 300 ] || {
-        echo "weft: the browser did not finish: $PWD/chromium.log" >&2
-        exit 1
-    }
-    sleep 1
-done
+browse 300 wgsl.html --enable-unsafe-webgpu --enable-features=Vulkan,WebGPU --use-webgpu-adapter=swiftshader
 sed -n 's/.*CONSOLE[^"]*"\(.*\)", source.*/\1/p' chromium.log >report.txt
 if grep FAILED report.txt; then exit 1; fi
 [ "$(grep -c 'answers within' report.txt)" -gt 50 ] || {
