@@ -8,11 +8,12 @@
  *
  * Every lobe is drawn in turn, several rounds; the least time of a frame counts. The processor's own part is
  * that of a frame whose draw calls do nothing. --moving: frames of an orbit of builtin:cloth as it comes, or of a scene
- * under a map, as the window draws them in motion, beside those at rest (docs/raster.md). --sampled: what lobes that are sampled take under an environment
- * and no other light, against the strategy `fitted` for the same lobe (docs/environment.md). --woven: what the cloth
- * takes in denim, in both engines, against the scene as it comes, from threads close up to all of the cloth
- * (docs/weave-evidence.md). With shaders of a folder or a width (640 without) only the raster engine is measured: a
- * graphics card takes so little for 640 that the processor's part counts, so give it 3840; 16 to 16384 are taken. */
+ * under a map, as the window draws them in motion, beside those at rest (docs/raster.md). --sampled: what lobes that are
+ * sampled take under an environment and no other light, against the strategy `fitted` for the same lobe
+ * (docs/environment.md). --woven: what the cloth takes in denim, in both engines, against the scene as it comes, from
+ * threads close up to all of the cloth (docs/weave-evidence.md). With shaders of a folder or a width (640 without) only
+ * the raster engine is measured: a graphics card takes so little for 640 that the processor's part counts, so give it
+ * 3840; 16 to 16384 are taken. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdbool.h>
@@ -234,7 +235,7 @@ static double trace(const WeftScene *scene, const char *camera) {
     return seconds;
 }
 
-/* What frames of an orbit take. */
+/* The times of the frames of an orbit. */
 typedef struct Orbit {
     double median, worst, processor; /* s; processor: time of the process a frame, over two cores */
 } Orbit;

@@ -17,7 +17,7 @@ typedef struct WeftTarget {
 /* Fills in the target at index, and returns 1; returns 0 past the end. */
 WEFT_API int weft_target_info(int index, WeftTarget *out);
 
-/* One material of a delivered file, measured without its normal map and with the means of its other textures. */
+/* A material of a delivered file, measured without its normal map and with the means of its other textures. */
 typedef struct WeftDelivered {
     char name[64];   /* of the material, truncated */
     WeftMatch found; /* distance of the original's numbers, and of those delivered, from the original */

@@ -21,7 +21,8 @@
  * transform feedback or conditional rendering may be active. Errors pending in the driver when a call begins are
  * dropped. Several rasters may share a context.
  *
- * DOES NOT: indirect light between surfaces, but for one bounce in sums of frames; refraction, layer rule "stochastic" (drawn without its bounces). */
+ * DOES NOT: indirect light between surfaces, but for one bounce in sums of frames; refraction; layer rule "stochastic"
+ * (drawn without its bounces). */
 #ifndef WEFT_RASTER_H
 #define WEFT_RASTER_H
 

@@ -1,11 +1,9 @@
 /* deliver_source.c - the source of a delivery, as a scene and as a glTF file */
 #define _XOPEN_SOURCE 700
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/path.h"
-#include "cli/console/interrupt.h"
 #include "cli/console/names.h"
 #include "cli/console/report.h"
 #include "cli/deliver/delivery.h"

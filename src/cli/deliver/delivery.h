@@ -69,7 +69,7 @@ int delivery_heed(void *delivery, double fraction);
 /* Returns what an operand is; what is nothing else is a draft, or its words. */
 SourceKind source_kind(const char *what);
 
-/* All below return 0, or an exit code after one line on standard error; WEFT_INTERRUPTED has no line yet. */
+/* The functions below return 0, or an exit code after one line on standard error; WEFT_INTERRUPTED has no line yet. */
 
 /* Reads what is delivered as a scene, which is what the pictures are compared with. May be called again. */
 int source_load(Delivery *delivery, WeftScene **out);

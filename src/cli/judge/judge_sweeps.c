@@ -11,7 +11,7 @@
 
 enum { BALLS = 10, ROW = BALLS / 2, WORDS = 64, PATH_MOST = 4096 };
 
-/* One file of spheres. */
+/* A file of spheres. */
 typedef struct SphereSweep {
     const Options *options;
     const char *folder;

@@ -3,7 +3,7 @@
 
 #include "weft/weave.h"
 
-/* Each returns 0, or an exit code after one line on standard error. */
+/* The functions below return 0, or an exit code after one line on standard error. */
 
 /* Reads a draft: a file, or words. log may be NULL. Release with weft_draft_free. */
 int draft_read(const char *what, const WeftLog *log, WeftDraft **out);

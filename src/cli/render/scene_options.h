@@ -39,7 +39,7 @@ enum { SCENE_LIGHTS_MOST = 64 };
         OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral",                                                               \
                     "of a .png: none, pbr-neutral, agx, or aces, which is Narkowicz' fit of the ACES curve")
 
-/* Those of a verb whose pictures have a background and a floor. */
+/* Adds the options of a verb whose pictures have a background and a floor. */
 #define SCENE_OPTIONS                                                                                                  \
     LIGHT_OPTIONS, TONE_OPTIONS,                                                                                       \
         OPTION_TEXT("--background", "WHAT", "auto",                                                                    \

@@ -139,7 +139,8 @@ static int weaving_write(const Weaving *weaving) {
     return weft_draft_write(weaving->draft, weaving->output, &error) == WEFT_OK ? 0 : report_error(&error);
 }
 
-/* Writes the material of a scene with the maps as cloth.u3m, with construction and composition, which a material does not name. */
+/* Writes the material of a scene with the maps as cloth.u3m, with construction and composition, which a material does not
+ * name. */
 static WeftResult u3m_write(const Weaving *weaving, const WeftScene *scene, const char *path, WeftError *error) {
     const char *text = option_text(weaving->options, "--yarn"), *comma = strchr(text, ',');
     char name[64];

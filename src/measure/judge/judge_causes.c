@@ -9,6 +9,7 @@
 #include "base/pi.h"
 #include "image/srgb.h"
 #include "measure/judge/judge.h"
+#include "shading/dialect/tone.h"
 #include "weft/lobe.h"
 #include "weft/material.h"
 
@@ -17,7 +18,7 @@ enum { SETS = 3, SET_SIZE = 64 };
 /* Values of a picture that differ by a curve or a factor. */
 typedef enum ValueChange { VALUES_KEPT = 0, VALUES_SCALED, VALUES_ENCODED, VALUES_DECODED } ValueChange;
 
-/* One cause. Of what changes the scene, only one member is used. */
+/* A cause. Of what changes the scene, only one member is used. */
 typedef struct CauseRow {
     const char *name, *help;
     WeftCauseKind kind;
@@ -365,10 +366,7 @@ bool judge_cause_is_of_values(int cause) { return cause < ROWS && rows[cause].va
 
 bool judge_cause_is_fitted(int cause) { return cause < ROWS && rows[cause].values == VALUES_SCALED; }
 
-static double encoded(double x) {
-    const double v = fmin(fmax(x, 0.0), 1.0);
-    return v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1.0 / 2.4) - 0.055;
-}
+static double encoded(double x) { return (double)tone_encode((float)fmin(fmax(x, 0.0), 1.0)); }
 
 /* Returns the factor of r that comes closest to p. */
 static double best_factor(const WeftJudge *judge, const CellMean *p, const CellMean *r, const CellMean *scales) {

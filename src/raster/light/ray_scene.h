@@ -35,7 +35,8 @@ typedef struct RayScene {
     RayMasks masks;
 } RayScene;
 
-/* Makes what is missing. sheens: of the scene, NULL where nothing is to bounce. Fails with WEFT_MESSAGE_MEMORY, or _GL_MEMORY if the scene is too large for a texture. */
+/* Makes what is missing. sheens: of the scene, NULL where nothing is to bounce. Fails with WEFT_MESSAGE_MEMORY, or
+ * _GL_MEMORY if the scene is too large for a texture. */
 WeftResult ray_scene_make(RayScene *self, const WeftScene *scene, const SheenTables *sheens, WeftError *error);
 void ray_scene_destroy(RayScene *self);
 
