@@ -1,9 +1,9 @@
 /* deliver_sheet.c - the sheet of a target: reference, file and difference, near and far */
-#include <math.h>
 #include <stdio.h>
 
 #include "cli/console/report.h"
 #include "cli/deliver/delivery.h"
+#include "cli/files/sheet_scale.h"
 
 enum { COLUMNS = 3, PANELS = COLUMNS * VIEW_COUNT, NOTE = 96 };
 static const char *const view_names[VIEW_COUNT] = {"near", "far"};
@@ -14,21 +14,12 @@ typedef struct Sheet {
     float scale[VIEW_COUNT]; /* of the differences */
 } Sheet;
 
-/* Rounds value up to the next of 1, 2, 5, 10, ... */
-static float round_up(float value) {
-    const float decade = powf(10.0f, floorf(log10f(fmaxf(value, 1e-3f))));
-    const float steps[] = {1.0f, 2.0f, 5.0f};
-    for (int k = 0; k < 3; k++)
-        if (value <= steps[k] * decade * 1.0001f) return steps[k] * decade;
-    return 10.0f * decade;
-}
-
 static WeftResult row_make(Sheet *sheet, int v, const Shots *shots, const Shots *reference, WeftError *error) {
     const WeftImage *of = &shots->views[v], *as = &reference->views[v];
     WeftImage *shown = sheet->shown + (ptrdiff_t)COLUMNS * v;
-    WeftDifference difference;
+    WeftDifference difference = {.high = 0.0f};
     WeftResult result = weft_difference(of, as, &difference, error);
-    sheet->scale[v] = round_up(difference.high);
+    sheet->scale[v] = sheet_scale(difference.high, 1e-3f);
     if (result == WEFT_OK) result = weft_image_tonemap(as, WEFT_TONEMAP_PBR_NEUTRAL, 0.0f, &shown[0], error);
     if (result == WEFT_OK) result = weft_image_tonemap(of, WEFT_TONEMAP_PBR_NEUTRAL, 0.0f, &shown[1], error);
     if (result == WEFT_OK) result = weft_difference_image(of, as, sheet->scale[v], &shown[2], error);

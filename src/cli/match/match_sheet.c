@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "cli/console/report.h"
+#include "cli/files/sheet_scale.h"
 #include "cli/match/match_verb.h"
 
 enum { SIZE = 300, PICTURES = 3 };
@@ -14,15 +15,6 @@ typedef struct Pictures {
     float scale; /* of all difference images */
 } Pictures;
 
-/* Rounds value up to the next of 1, 2, 5, 10, ... */
-static float round_up(float value) {
-    float decade = powf(10.0f, floorf(log10f(fmaxf(value, 1e-3f))));
-    const float steps[] = {1.0f, 2.0f, 5.0f};
-    for (int k = 0; k < 3; k++)
-        if (value <= steps[k] * decade * 1.0001f) return steps[k] * decade;
-    return 10.0f * decade;
-}
-
 static WeftResult draw(Pictures *all, const Match *match, WeftError *error) {
     const WeftReflection *of[PICTURES] = {match->from.reflection, match->copy.reflection, match->to.reflection};
     WeftResult result = WEFT_OK;
@@ -32,7 +24,7 @@ static WeftResult draw(Pictures *all, const Match *match, WeftError *error) {
             result = weft_image_tonemap(&all->linear[k], WEFT_TONEMAP_PBR_NEUTRAL, 0.0f, &all->shown[k], error);
         if (result == WEFT_OK) result = weft_difference(&all->linear[k], &all->linear[0], &all->difference[k], error);
     }
-    all->scale = round_up(fmaxf(all->difference[1].high, all->difference[2].high));
+    all->scale = sheet_scale(fmaxf(all->difference[1].high, all->difference[2].high), 1e-3f);
     for (int k = 1; k < PICTURES && result == WEFT_OK; k++)
         result = weft_difference_image(&all->linear[k], &all->linear[0], all->scale, &all->delta[k], error);
     return result;

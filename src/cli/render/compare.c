@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/console/report.h"
+#include "cli/files/sheet_scale.h"
 #include "weft/weft.h"
 
 enum { NOTE = 96, COLUMNS_MOST = 5, CAPTION = 512 };
@@ -47,15 +48,6 @@ static WeftResult trace_all(Comparison *all, Warnings *warnings, bool *interrupt
     return result;
 }
 
-/* Rounds value up to the next of 1, 2, 5, 10, ... */
-static float round_up(float value) {
-    float decade = powf(10.0f, floorf(log10f(fmaxf(value, 1e-4f))));
-    float steps[] = {1.0f, 2.0f, 5.0f};
-    for (int k = 0; k < 3; k++)
-        if (value <= steps[k] * decade * 1.0001f) return steps[k] * decade;
-    return 10.0f * decade;
-}
-
 static WeftResult measure(Comparison *all, WeftError *error) {
     const WeftImage *first = &all->shots[0].job.linear;
     WeftResult result = WEFT_OK;
@@ -72,7 +64,7 @@ static WeftResult measure(Comparison *all, WeftError *error) {
         snprintf(shot->figures, sizeof shot->figures, "mean |difference| %.4f   relMSE %.4f", shot->difference.mean,
                  shot->difference.relmse);
     }
-    all->scale = round_up(high);
+    all->scale = sheet_scale(high, 1e-4f);
     for (int k = 1; k < all->count && result == WEFT_OK; k++)
         result = weft_difference_image(&all->shots[k].job.linear, first, all->scale, &all->shots[k].picture, error);
     return result;
