@@ -19,7 +19,7 @@ cp "$here/deliver.html" .
 rm -rf files
 # Each line: a name, a material, and how far its columns may be off.
 cases='velvet preset:velvet 0.1
-denim preset:woven-denim 0.4'
+denim preset:woven-denim 0.1'
 bounds=
 echo 'window.files = {};' >files.js
 while read -r name material most; do

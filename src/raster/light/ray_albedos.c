@@ -11,11 +11,11 @@
 #include "shading/stack/frame.h"
 #include "weave/cloth_base.h"
 
-enum { SAMPLES = 512 }; /* of a material */
 enum {
-    STEPS_MOST = 6,
-    PER_STEP = 4
-}; /* a triangle's mean takes steps^2 points, PER_STEP texels apart if they suffice */
+    SAMPLES = 512,  /* of a material */
+    STEPS_MOST = 6, /* a triangle's mean takes steps^2 points, */
+    PER_STEP = 4    /* so many texels apart if they suffice */
+};
 enum { PAIR_PLACE, PAIR_NORMAL, PAIR_SYSTEM, PAIR_EYE, PAIR_LIGHT };
 static const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f};
 

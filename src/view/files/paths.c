@@ -44,7 +44,7 @@ bool path_is_cubemap(const char *folder) {
 }
 
 void path_stem(const char *path, char *stem, size_t size) {
-    const char *name = path_builtin(path) ? path_builtin(path) : path_name(path), *dot = strrchr(name, '.');
+    const char *builtin = path_builtin(path), *name = builtin ? builtin : path_name(path), *dot = strrchr(name, '.');
     snprintf(stem, size, "%.*s", dot && dot > name ? (int)(dot - name) : (int)strlen(name), name);
     for (char *p = stem; *p; p++)
         if (*p == '/' || iscntrl((unsigned char)*p)) *p = '-';
