@@ -18,6 +18,7 @@
 
 #include "scene/record/scene.h"
 #include "scratch.h"
+#include "u3m_text.h"
 #include "weft/weft.h"
 
 static char folder[SCRATCH_SIZE];
@@ -283,6 +284,113 @@ static void saved_coming_extensions_read_as_they_were(void **state) {
     weft_scene_free(scene);
 }
 
+static void write_text(const char *name, const char *text) {
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *f = fopen(path, "w");
+    assert_true(f && fputs(text, f) >= 0);
+    assert_int_equal(fclose(f), 0);
+}
+
+/* Returns builtin:bend in a U3M whose back has a map and other numbers than its front. */
+static WeftScene *two_faced(void) {
+    char back[U3M_TEXT], text[U3M_TEXT], path[128];
+    WeftError error;
+    WeftImage image = pattern(4, 3, WEFT_PIXEL_U8);
+    snprintf(path, sizeof path, "%s/map.png", folder);
+    assert_int_equal(weft_image_write(path, &image, &error), WEFT_OK);
+    weft_image_free(&image);
+    snprintf(back, sizeof back, "%s", U3M_VISUAL);
+    u3m_put(
+        back, "\"basecolor\"",
+        "{\"constant\":{\"r\":1,\"g\":1,\"b\":1},\"texture\":{\"mode\":\"multiply\",\"factor\":{\"r\":0.9,\"g\":0.3,"
+        "\"b\":0.1},\"image\":{\"dpi\":{\"x\":100,\"y\":100},\"width\":20,\"height\":20,\"path\":\"map.png\","
+        "\"repeat\":{\"mode\":\"normal\",\"rotation\":0}}}}");
+    u3m_put(back, "\"roughness\"", U3M_NUMBER_OF("0.25"));
+    u3m_text(text, "\"back\"", back);
+    write_text("faces.u3m", text);
+    snprintf(path, sizeof path, "%s/faces.u3m", folder);
+    WeftScene *scene = load("builtin:bend");
+    if (weft_scene_assign_material(scene, NULL, path, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return scene;
+}
+
+/* Returns the mean of each channel of a picture from behind, where the back is seen. */
+static void mean_from_behind(const WeftScene *scene, double mean[3]) {
+    const WeftRenderDesc desc = {.width = 48, .height = 36, .camera = "-0.25,-0.13,-0.39;0.02,0,0.05;28", .seed = 7};
+    WeftRender *render;
+    WeftImage image;
+    WeftError error;
+    if (weft_render_create(scene, &desc, &render, &error) != WEFT_OK) fail_msg("%s", error.text);
+    weft_render_run(render, 4, 0.0, NULL, NULL);
+    assert_int_equal(weft_render_image(render, &image, &error), WEFT_OK);
+    for (int c = 0; c < 3; c++) {
+        mean[c] = 0.0;
+        for (int k = 0; k < 48 * 36; k++) mean[c] += (double)((float *)image.pixels)[4 * k + c] / (48.0 * 36.0);
+    }
+    weft_render_free(render);
+    weft_image_free(&image);
+}
+
+/* A back comes with its numbers and its map, to the same picture from behind; what has a weave of its own is none. */
+static void saved_backs_read_as_they_were(void **state) {
+    (void)state;
+    WeftScene *scene = two_faced(), *plain = load("builtin:bend");
+    double other[3], wanted[3];
+    mean_from_behind(plain, other);
+    mean_from_behind(scene, wanted);
+    if (!(fabs(wanted[2] / other[2] - 1.0) > 0.05)) fail_msg("the back is not seen: %g, %g", wanted[2], other[2]);
+    static const char *const names[] = {"faces.glb", "faces.gltf"};
+    for (int k = 0; k < 2; k++) {
+        WeftScene *read = saved(scene, names[k]);
+        double found[3];
+        assert_same(scene, read, names[k]);
+        mean_from_behind(read, found);
+        for (int c = 0; c < 3; c++)
+            if (!(fabs(found[c] - wanted[c]) <= 0.0)) fail_msg("%s: %.9g, not %.9g", names[k], found[c], wanted[c]);
+        assert_int_equal(read->materials[read->material_count].inputs[0].texture > 0,
+                         scene->materials[scene->material_count].inputs[0].texture > 0);
+        weft_scene_free(read);
+    }
+    weft_scene_free(plain);
+    weft_scene_free(scene);
+}
+
+static int warnings;
+static void count_warning(void *user, WeftMessage message, const char *text) {
+    (void)user;
+    warnings += message == WEFT_MESSAGE_GLTF_WARN_IGNORED && strstr(text, "extras.weft.back") != NULL;
+}
+
+static void backs_that_make_no_sense_are_refused_or_left_out(void **state) {
+    (void)state;
+    static const struct {
+        const char *back;
+        WeftResult result;
+        int warnings;
+    } rows[] = {{"7", WEFT_INPUT, 0},
+                {"[]", WEFT_INPUT, 0},
+                {"{\"extras\":{\"weft\":{\"back\":{}}}}", WEFT_OK, 1},
+                {"{\"pbrMetallicRoughness\":{\"roughnessFactor\":\"x\"}}", WEFT_INPUT, 0},
+                {"{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":3}}}", WEFT_INPUT, 0},
+                {"{}", WEFT_OK, 0}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        char text[512];
+        WeftScene *scene = NULL;
+        WeftError error;
+        const WeftLog log = {count_warning, NULL};
+        warnings = 0;
+        snprintf(text, sizeof text,
+                 "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"extras\":{\"weft\":{\"back\":%s}}}]}",
+                 rows[k].back);
+        const WeftResult result = weft_scene_load_memory(text, strlen(text), "faces", &scene, &log, &error);
+        if (result != rows[k].result || warnings != rows[k].warnings)
+            fail_msg("%s: %d, %d warnings", rows[k].back, result, warnings);
+        if (result != WEFT_OK) assert_non_null(strstr(error.text, "materials[0].extras.weft.back"));
+        weft_scene_free(scene);
+    }
+}
+
 static int file_count(void) {
     char command[96];
     int count = -1;
@@ -329,9 +437,12 @@ static void failed_save_leaves_no_files(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(saved_built_in_scenes_read_as_they_were), cmocka_unit_test(saved_presets_read_as_they_were),
-        cmocka_unit_test(saved_scene_of_random_values_reads_as_it_was),
-        cmocka_unit_test(saved_coming_extensions_read_as_they_were), cmocka_unit_test(failed_save_leaves_no_files)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(saved_built_in_scenes_read_as_they_were),
+                                       cmocka_unit_test(saved_presets_read_as_they_were),
+                                       cmocka_unit_test(saved_scene_of_random_values_reads_as_it_was),
+                                       cmocka_unit_test(saved_coming_extensions_read_as_they_were),
+                                       cmocka_unit_test(saved_backs_read_as_they_were),
+                                       cmocka_unit_test(backs_that_make_no_sense_are_refused_or_left_out),
+                                       cmocka_unit_test(failed_save_leaves_no_files)};
     return cmocka_run_group_tests(tests, begin, end);
 }

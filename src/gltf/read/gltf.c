@@ -98,7 +98,7 @@ static void skins_and_nodes_read(Asset *asset) {
 static void (*const stages[])(Asset *) = {
     version_check,        extensions_check, buffers_read,  views_read,  accessors_read,   animation_apply,
     textures_read,        materials_read,   variants_read, meshes_read, cameras_count,    lights_count,
-    skins_and_nodes_read, cameras_read,     lights_read,   meshes_bake, textures_resolve,
+    skins_and_nodes_read, cameras_read,     lights_read,   meshes_bake, textures_resolve, backs_take,
 };
 
 static const size_t FILE_MAX = (size_t)4 << 30, LIMIT_FIRST = (size_t)256 << 20;

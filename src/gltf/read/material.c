@@ -9,6 +9,7 @@
 #include "gltf/asset/field.h"
 #include "gltf/asset/material_fields.h"
 #include "gltf/read/glossiness.h"
+#include "scene/material/backs.h"
 #include "scene/material/cloth_file.h"
 #include "scene/material/material_numbers.h"
 #include "scene/material/set.h"
@@ -227,9 +228,9 @@ static void weave_read(const Field *weft, Material *material) {
 
 /* Reads extras.weft: what no extension of glTF can express. Other extras belong to other programs. */
 static void extras_read(const Field *field, Material *material) {
-    enum { OTHERS = 8 };
-    const char *keys[OTHERS + OWN + WEFT_HAIR_NUMBERS + 1] = {"nap",     "napRotation", "napTexture",  "dustTexture",
-                                                              "choices", "inputs",      "alphaCutoff", "weave"};
+    enum { OTHERS = 9 };
+    const char *keys[OTHERS + OWN + WEFT_HAIR_NUMBERS + 1] = {
+        "nap", "napRotation", "napTexture", "dustTexture", "choices", "inputs", "alphaCutoff", "weave", "back"};
     for (size_t k = 0; k < OWN; k++) keys[OTHERS + k] = own[k].key;
     for (int k = 0; k < WEFT_HAIR_NUMBERS; k++) keys[OTHERS + OWN + (size_t)k] = hair_infos[k].name;
     static const MaterialField nap[] = {
@@ -263,6 +264,32 @@ static Material material_read(const Field *field) {
     return material;
 }
 
+/* Reads what is seen of a material from behind: a material of "materials" in short, but with no cloth, no back and no
+ * picture of glossiness. */
+static void back_read(const Field *field, size_t index) {
+    Asset *asset = field->asset;
+    const Field extras = field_member(field, "extras"), weft = field_member(&extras, "weft"),
+                back = field_member(&weft, "back");
+    const json_t *further = json_object_get(json_object_get(back.json, "extras"), "weft");
+    if (!back.json) return;
+    if (!json_is_object(back.json)) {
+        field_fail(&back, WEFT_MESSAGE_GLTF_SCHEMA, "expected an object");
+        return;
+    }
+    if (!asset->backs) {
+        asset->backs = asset_array(asset, &asset->arena, asset->material_count + 1, sizeof *asset->backs);
+        asset->back_given = asset_array(asset, &asset->arena, asset->material_count + 1, sizeof(bool));
+        if (!asset->backs || !asset->back_given) return;
+    }
+    Material material = material_read(&back);
+    if (json_object_get(further, "back") || material.cloth || field_extension(&back, gloss_object).json) {
+        field_warn(&back, WEFT_MESSAGE_GLTF_WARN_IGNORED, "it has a weave, a back or glossiness of its own");
+        return;
+    }
+    asset->backs[index] = material;
+    asset->back_given[index] = true;
+}
+
 void materials_read(Asset *asset) {
     WeftScene *scene = asset->scene;
     Field root = field_root(asset), list = field_member(&root, "materials");
@@ -276,7 +303,19 @@ void materials_read(Asset *asset) {
             field_fail(&field, WEFT_MESSAGE_GLTF_SCHEMA, "expected an object");
         Field name = field_member(&field, "name");
         scene->materials[i] = material_read(&field);
+        back_read(&field, i);
         scene->material_names[i] = asset_text(asset, field_text(&name, ""));
     }
     scene->material_count = (int)asset->material_count;
+}
+
+void backs_take(Asset *asset) {
+    WeftScene *scene = asset->scene;
+    if (!asset->backs || !asset->back_given) return;
+    if (backs_make(scene, asset->error) != WEFT_OK) {
+        asset_fail(asset, WEFT_MESSAGE_MEMORY, NULL);
+        return;
+    }
+    for (int m = 0; m < scene->back_count; m++)
+        if (asset->back_given[m]) back_give(scene, m, &asset->backs[m]);
 }

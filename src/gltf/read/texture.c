@@ -278,6 +278,14 @@ static int image_resolve(Jobs *jobs, int index) {
     return *made - 1;
 }
 
+/* Returns one of the materials as seen from the front, or after those one as seen from behind: NULL if it has no back of its
+ * own. */
+static Material *side(const Asset *asset, int k) {
+    const int m = k - asset->scene->material_count;
+    if (m < 0) return &asset->scene->materials[k];
+    return asset->backs && asset->back_given[m] ? &asset->backs[m] : NULL;
+}
+
 /* Takes out the images without pixels, the textures that have them, and what inputs read of those. */
 static void unread_drop(Asset *asset) {
     WeftScene *scene = asset->scene;
@@ -298,9 +306,9 @@ static void unread_drop(Asset *asset) {
     }
     scene->image_count = images;
     scene->texture_count = textures;
-    for (int m = 0; m < scene->material_count; m++)
-        for (int i = 0; i < INPUT_COUNT; i++) {
-            int *texture = &scene->materials[m].inputs[i].texture;
+    for (int m = 0; m < 2 * scene->material_count; m++)
+        for (int i = 0; i < INPUT_COUNT && side(asset, m); i++) {
+            int *texture = &side(asset, m)->inputs[i].texture;
             if (*texture) *texture = texture_place[*texture - 1] + 1;
         }
 }
@@ -354,10 +362,10 @@ void textures_resolve(Asset *asset) {
     if (asset->result != WEFT_OK) return;
     for (size_t i = 0; i < asset->image_count; i++) image_of_source[i] = -1;
 
-    for (int m = 0; m < scene->material_count; m++)
-        for (int i = 0; i < INPUT_COUNT && asset->result == WEFT_OK; i++) {
-            int *texture = &scene->materials[m].inputs[i].texture;
-            if (*texture && (asset->material_shown[m] || asset->examined))
+    for (int m = 0; m < 2 * scene->material_count; m++)
+        for (int i = 0; i < INPUT_COUNT && asset->result == WEFT_OK && side(asset, m); i++) {
+            int *texture = &side(asset, m)->inputs[i].texture;
+            if (*texture && (asset->material_shown[m % scene->material_count] || asset->examined))
                 *texture = texture_resolve(&jobs, *texture - 1, image_of_source);
             else
                 *texture = 0;

@@ -230,6 +230,17 @@ static void extras_save(Saving *saving, json_t *object, const Material *material
     }
 }
 
+/* Moves the object of a back out of the list of materials to extras.weft.back of its front, where other programs do not
+ * take it for a material that nothing has. */
+static void back_put(Saving *saving, json_t *front, json_t *list, size_t at) {
+    json_t *back = json_incref(json_array_get(list, at)), *extras = json_object_get(front, "extras"),
+           *weft = json_object_get(extras, "weft");
+    if (!extras) saving_put(saving, front, "extras", extras = json_object());
+    if (!weft) saving_put(saving, extras, "weft", weft = json_object());
+    json_array_remove(list, at);
+    saving_put(saving, weft, "back", back);
+}
+
 /* Returns the name of a material, which a light of the scene's has none of. */
 static const char *name_of(const WeftScene *scene, int material) {
     const char *name = weft_scene_material_name(scene, material);
@@ -239,18 +250,24 @@ static const char *name_of(const WeftScene *scene, int material) {
 void materials_save(Saving *saving) {
     const WeftScene *scene = saving->scene;
     if (!scene->material_count) return;
-    Material *given = arena_array(&saving->arena, (size_t)scene->material_count, sizeof *given);
-    if (!given) {
+    const int shaded = scene_shaded_materials(scene), fronts = scene->material_count;
+    Material *given = arena_array(&saving->arena, (size_t)shaded, sizeof *given);
+    int *of = arena_array(&saving->arena, (size_t)shaded, sizeof *of),
+        count = 0; /* first the fronts, then some backs */
+    if (!given || !of) {
         saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
         return;
     }
-    for (int k = 0; k < scene->material_count; k++) {
-        given[k] = relief_given(scene, k);
-        fuzz_sheen_put(&given[k]);
+    for (int k = 0; k < shaded; k++) {
+        const bool back = k >= fronts;
+        if (back && !scene_has_back(scene, k - fronts)) continue;
+        given[count] = back ? scene->materials[k] : relief_given(scene, k);
+        fuzz_sheen_put(&given[count]);
+        of[count++] = back ? k - fronts : k;
     }
     json_t *list = saving_list(saving, "materials");
-    for (int k = 0; k < scene->material_count && saving->result == WEFT_OK; k++)
-        saving_append(saving, list, material_save(saving, name_of(scene, k), &given[k]));
+    for (int k = 0; k < count && saving->result == WEFT_OK; k++)
+        saving_append(saving, list, material_save(saving, k < fronts ? name_of(scene, k) : "", &given[k]));
     WeftScene read = {0};
     Asset asset = {.name = saving->path,
                    .scene = &read,
@@ -259,8 +276,10 @@ void materials_save(Saving *saving) {
                    .texture_count = (size_t)saving->texture_count};
     if (saving->result == WEFT_OK) materials_read(&asset);
     if (asset.result != WEFT_OK) saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
-    for (int k = 0; k < scene->material_count && saving->result == WEFT_OK; k++)
+    for (int k = 0; k < count && saving->result == WEFT_OK; k++)
         extras_save(saving, json_array_get(list, (size_t)k), &given[k], &read.materials[k]);
+    for (int k = count - 1; k >= fronts && saving->result == WEFT_OK; k--)
+        back_put(saving, json_array_get(list, (size_t)of[k]), list, (size_t)k);
     arena_free(&asset.arena);
     arena_free(&read.arena);
 }

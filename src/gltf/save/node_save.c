@@ -54,10 +54,15 @@ static bool looks_up(const Material *material, int set) {
     return any;
 }
 
+static bool material_needs_set(const WeftScene *scene, int material, int set) {
+    return looks_up(&scene->materials[material], set) ||
+           (scene_has_back(scene, material) && looks_up(&scene->materials[scene->material_count + material], set));
+}
+
 static bool needs_set(const WeftScene *scene, const Mesh *mesh, int set) {
-    bool needs = looks_up(&scene->materials[mesh->material], set);
+    bool needs = material_needs_set(scene, mesh->material, set);
     for (int v = 0; v < scene->variant_count && mesh->variant_material; v++)
-        if (mesh->variant_material[v] >= 0) needs |= looks_up(&scene->materials[mesh->variant_material[v]], set);
+        if (mesh->variant_material[v] >= 0) needs |= material_needs_set(scene, mesh->variant_material[v], set);
     return needs;
 }
 

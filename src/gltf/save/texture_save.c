@@ -21,8 +21,11 @@ static void number_texture(Saving *saving, const Input *input) {
 }
 
 static void number_material(Saving *saving, int material) {
-    const Material given = relief_given(saving->scene, material);
+    const WeftScene *scene = saving->scene;
+    const Material given = relief_given(scene, material);
     for (int k = 0; k < INPUT_COUNT; k++) number_texture(saving, &given.inputs[k]);
+    for (int k = 0; k < INPUT_COUNT && scene_has_back(scene, material); k++)
+        number_texture(saving, &scene->materials[scene->material_count + material].inputs[k]);
 }
 
 static bool number_all(Saving *saving) {

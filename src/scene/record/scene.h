@@ -164,6 +164,11 @@ static inline int scene_back(const WeftScene *scene, int material) {
     return other ? scene->material_count + material : -1;
 }
 
+/* Returns true if a material was given a back of its own. */
+static inline bool scene_has_back(const WeftScene *scene, int material) {
+    return material < scene->back_count && scene->backs[material] == BACK_GIVEN;
+}
+
 /* Returns the cloth of a material, or NULL. The back of a woven one has the number of the cloth below 0: its other
  * face. */
 const WeftCloth *scene_cloth_of(const WeftScene *scene, const Material *material);

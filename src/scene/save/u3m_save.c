@@ -216,7 +216,7 @@ static json_t *visual_of(U3mWriter *w, json_t *material, const char *part) {
 
 static void write_back(U3mWriter *w, json_t *material) {
     const WeftScene *scene = w->scene;
-    const bool given = w->index < scene->back_count && scene->backs[w->index] == BACK_GIVEN;
+    const bool given = scene_has_back(scene, w->index);
     const bool had = w->source && w->source->has_back;
     if (!given) {
         if (had) put(w, material, "back", json_null());

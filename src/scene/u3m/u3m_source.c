@@ -18,7 +18,7 @@ static bool source_keep(WeftScene *scene, int material, const U3mText *text) {
     U3mSource *source = arena_array(&scene->arena, 1, sizeof *source);
     if (!source) return false;
     *source = (U3mSource){.text = *text, .material = scene->materials[material]};
-    source->has_back = material < scene->back_count && scene->backs[material] == BACK_GIVEN;
+    source->has_back = scene_has_back(scene, material);
     if (source->has_back) source->back = scene->materials[scene->material_count + material];
     scene->u3m[material] = source;
     return true;
