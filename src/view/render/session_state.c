@@ -113,6 +113,7 @@ static WeftResult read_inputs(const json_t *object, int index, WeftScene *scene,
         const json_t *input = json_object_get(inputs, weft_material_input_name(k)),
                      *map = json_object_get(input, "map");
         WeftInput *to = &m->inputs[k];
+        if (json_is_object(inputs) && !input) continue; /* an earlier version did not have it */
         if (!record_read(input, input_members, LENGTH(input_members), to)) return damaged(error, "materials");
         to->texture = (int)json_integer_value(map);
         if (!json_is_string(map)) continue;

@@ -140,8 +140,9 @@ static void restore_view(Viewer *v, const Restored *restored) {
     const json_t *session = restored->session;
     ViewOptions options = *v->options;
     int split, side, chosen;
-    if (record_read(json_object_get(session, "options"), option_members, LENGTH(option_members), &options))
-        options_set(v, &options);
+    for (size_t k = 0; k < LENGTH(option_members); k++) /* one that an earlier version did not have stays */
+        record_read(json_object_get(session, "options"), &option_members[k], 1, &options);
+    options_set(v, &options);
     restore_camera(v, json_object_get(session, "camera"));
     if (record_whole(session, "split", 0, SPLIT_SIDES, &split) && record_whole(session, "side", 0, 1, &side))
         edit_restore_other(v, &restored->other, (Split)split, side);
