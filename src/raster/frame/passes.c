@@ -28,8 +28,7 @@ static void put_reference(const WeftRaster *self, Picture *out) {
     put_row(out->sky_place, cosf(e->rotation), sinf(e->rotation), e->strength, kind);
     put_row(out->sky_color, e->color[0] * e->strength, e->color[1] * e->strength, e->color[2] * e->strength, 0.0f);
     put_row(out->sky_parts, e->ambient, e->reflection, 0.0f, 0.0f);
-    put_row(out->ray_first, (float)rays->tree.node_count, (float)rays->first[1], (float)rays->first[2],
-            (float)rays->first[3]);
+    put_row(out->ray_first, (float)rays->nodes, (float)rays->first[1], (float)rays->first[2], (float)rays->first[3]);
     put_row(out->ray_count, (float)rays->emitters, (float)self->sums.done, (float)rays->first[4], 0.0f);
 }
 
@@ -433,6 +432,15 @@ WeftResult frame_draw_passes(WeftRaster *self, const WeftRasterView *view, const
     return result;
 }
 
+/* Frees the shaders of a picture at rest, which is not drawn again before something changes, where moving pictures have
+ * shaders of their own. A property has the same in each; the mirror of a floor is drawn as at rest. */
+static void forget_still(WeftRaster *self, const WeftRasterView *view) {
+    WeftRasterView moving = *view;
+    moving.shading_rate = 2;
+    if (!self->floor.there && is_coarse(&moving) && all_keys(self, &moving, false, programs_has))
+        programs_forget(&self->programs, is_still);
+}
+
 WeftResult frame_begin_sum(WeftRaster *self, const View *seen, WeftError *error) {
     Sums *sums = &self->sums;
     const WeftRasterView *view = &sums->view;
@@ -440,6 +448,7 @@ WeftResult frame_begin_sum(WeftRaster *self, const View *seen, WeftError *error)
     WeftResult result = find_floor(self, seen, view, error);
     if (result == WEFT_OK && self->floor.there) result = compile_shaders(self, view, error); /* of its mirror */
     if (result == WEFT_OK && self->floor.there && !view->no_shadows) result = draw_shadows(self, error);
+    forget_still(self, view);
     self->summing = true;
     if (result == WEFT_OK) result = compile_shaders(self, view, error);
     self->summing = false;
@@ -452,7 +461,8 @@ WeftResult frame_begin_sum(WeftRaster *self, const View *seen, WeftError *error)
                             error);
     if (result == WEFT_OK && (self->target.width != view->width || self->target.height != view->height))
         result = target_resize(&self->target, view->width, view->height, 1, error);
-    return_spare(self);
+    if (result == WEFT_OK) target_keep_mean(&self->target);
+    memory_return();
     return result;
 }
 
@@ -492,7 +502,9 @@ WeftResult frame_draw_sum(WeftRaster *self, int rows, WeftError *error) {
     WeftResult result = draw_strip(self, &seen, sums->row, rows, error);
     if (result != WEFT_OK) return result;
     sums->row += rows;
-    if (sums->row == sums->height) sums_add(sums, &self->target);
+    const bool whole = sums->row == sums->height;
+    if (whole) sums_add(sums, &self->target);
     glFinish();
+    if (whole) return_spare(self);
     return gl_check(error, "a sum of frames");
 }

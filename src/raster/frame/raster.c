@@ -400,7 +400,7 @@ int weft_raster_ready(WeftRaster *self, const WeftRasterView *wanted) {
 WeftResult weft_raster_image(WeftRaster *self, WeftImage *out, WeftError *error) {
     GlOuter outer;
     *out = (WeftImage){0};
-    if (!self->target.drawn) return fail(error, WEFT_MESSAGE_DESC, "a picture", "nothing was drawn yet");
+    if (!self->target.mean) return fail(error, WEFT_MESSAGE_DESC, "a picture", "nothing was drawn yet");
     WeftResult result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
     result = target_read(&self->target, out, error);
@@ -412,7 +412,7 @@ static WeftResult check_show(const WeftRaster *self, const WeftRasterShow *show,
     static const char subject[] = "showing a picture";
     if (!context_adopted(self->context))
         return fail(error, WEFT_MESSAGE_DESC, subject, "a context of its own has nothing to show it in");
-    if (!self->target.drawn) return fail(error, WEFT_MESSAGE_DESC, subject, "nothing was drawn yet");
+    if (!self->target.mean) return fail(error, WEFT_MESSAGE_DESC, subject, "nothing was drawn yet");
     if (show->width < 1 || show->width > SIDE_MAX || show->height < 1 || show->height > SIDE_MAX)
         return fail(error, WEFT_MESSAGE_DESC, subject, "%d x %d; a side is 1 to %d", show->width, show->height,
                     SIDE_MAX);

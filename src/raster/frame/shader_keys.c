@@ -7,6 +7,10 @@
 
 bool is_coarse(const WeftRasterView *view) { return view->shading_rate > 1 && !part_is_property((int)view->part); }
 
+bool is_still(const ShaderKey *key) {
+    return !key->depth && !key->coarse && !key->resolve && !key->floor && !key->reference;
+}
+
 /* Returns a key without any input but those of coverage. */
 static ShaderKey coverage_key(const ShaderKey *key) {
     ShaderKey depth;

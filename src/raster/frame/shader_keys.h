@@ -14,6 +14,9 @@ ShaderKey depth_key(const ShaderKey *key);
 /* Returns true if the shading points of a picture are fewer than its pixels. */
 bool is_coarse(const WeftRasterView *view);
 
+/* Returns true if a key is that of a material in a picture at rest. */
+bool is_still(const ShaderKey *key);
+
 /* Returns the key of the floor. */
 ShaderKey floor_key(const WeftRaster *self, const WeftRasterView *view);
 

@@ -8,7 +8,7 @@
 #include "raster/gl/program.h"
 #include "trace/path/lens.h"
 
-enum { START = 2 }; /* index of the picture from before */
+enum { SUM, START, NEXT };
 
 static WeftResult build(Sums *self, const TextDesc *desc, WeftError *error) {
     const WeftResult result = program_on_screen("sum of frames", "raster/glsl/sum.glsl", desc, &self->program, error);
@@ -21,18 +21,22 @@ static WeftResult build(Sums *self, const TextDesc *desc, WeftError *error) {
 }
 
 static void free_targets(Sums *self) {
-    glDeleteFramebuffers(3, self->framebuffers);
-    glDeleteTextures(3, self->textures);
+    glDeleteFramebuffers(self->count, self->framebuffers);
+    glDeleteTextures(self->count, self->textures);
     target_destroy(&self->frame);
     self->width = self->height = 0;
 }
 
+/* Returns true if the driver adds to a texture of 32-bit floats as it draws. */
+static bool floats_blend(void) { return epoxy_is_desktop_gl() || epoxy_has_gl_extension("GL_EXT_float_blend"); }
+
 static WeftResult make_targets(Sums *self, int width, int height, WeftError *error) {
     if (self->width == width && self->height == height) return WEFT_OK;
     if (self->width) free_targets(self);
-    glGenTextures(3, self->textures);
-    glGenFramebuffers(3, self->framebuffers);
-    for (int k = 0; k < 3; k++) {
+    self->count = floats_blend() ? NEXT : NEXT + 1;
+    glGenTextures(self->count, self->textures);
+    glGenFramebuffers(self->count, self->framebuffers);
+    for (int k = 0; k < self->count; k++) {
         glBindTexture(GL_TEXTURE_2D, self->textures[k]);
         texture_unfiltered(GL_TEXTURE_2D);
         if (k == START)
@@ -57,7 +61,7 @@ WeftResult sums_begin(Sums *self, const TextDesc *desc, int width, int height, c
     if (result != WEFT_OK) return result;
     glDisable(GL_SCISSOR_TEST);
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < self->count; k++) {
         glBindFramebuffer(GL_FRAMEBUFFER, self->framebuffers[k]);
         glClear(GL_COLOR_BUFFER_BIT);
     }
@@ -113,8 +117,27 @@ static void combine(const Sums *self, unsigned to, unsigned first, float weight,
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+static void swap(unsigned *a, unsigned *b) {
+    const unsigned t = *a;
+    *a = *b;
+    *b = t;
+}
+
+/* Adds the frame to the sum. */
+static void add_frame(Sums *self) {
+    if (self->count > NEXT) {
+        combine(self, self->framebuffers[NEXT], self->textures[SUM], 1.0f, self->frame.mean, 1.0f);
+        swap(&self->framebuffers[SUM], &self->framebuffers[NEXT]);
+        swap(&self->textures[SUM], &self->textures[NEXT]);
+        return;
+    }
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    combine(self, self->framebuffers[SUM], self->frame.mean, 1.0f, self->frame.mean, 0.0f);
+    glDisable(GL_BLEND);
+}
+
 void sums_add(Sums *self, const Target *picture) {
-    const int last = self->done % 2;
     const float n = (float)++self->done, left = 1.0f - 4.0f * n / (float)self->frames;
     const float most = self->view.bounces ? SUMS_START_BOUNCED : SUMS_START;
     const float start = self->starts && left > 0.0f ? most * left : 0.0f;
@@ -125,8 +148,8 @@ void sums_add(Sums *self, const Target *picture) {
     glDisable(GL_CULL_FACE);
     glViewport(0, 0, self->width, self->height);
     glUseProgram(self->program);
-    combine(self, self->framebuffers[1 - last], self->textures[last], 1.0f, self->frame.mean, 1.0f);
-    combine(self, picture->resolved, self->textures[1 - last], 1.0f / (n + start), self->textures[START],
+    add_frame(self);
+    combine(self, picture->resolved, self->textures[SUM], 1.0f / (n + start), self->textures[START],
             start / (n + start));
 }
 

@@ -16,8 +16,9 @@ enum { SUMS_START = 8, SUMS_START_BOUNCED = 48 };
 
 typedef struct Sums {
     Target frame;         /* the frame that is being drawn, one sample a pixel */
-    unsigned textures[3]; /* two sums of 32-bit floats, the last and the next in turn; the picture from before */
+    unsigned textures[3]; /* the sum, of 32-bit floats; the picture from before; the next sum, unless floats blend */
     unsigned framebuffers[3];
+    int count; /* textures: 2 or 3 */
     unsigned program;
     int weights; /* location of a uniform of it */
     int width, height;

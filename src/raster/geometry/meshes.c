@@ -5,6 +5,8 @@
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
+#include "image/half.h"
 #include "raster/geometry/occlusion.h"
 #include "raster/gl/gl_check.h"
 
@@ -127,7 +129,7 @@ WeftResult meshes_update(GlMeshes *self, const WeftScene *scene, WeftError *erro
     return result;
 }
 
-static const GLsizeiptr seen_size = OCCLUSION_VALUES * sizeof(float);
+static const GLsizeiptr seen_size = OCCLUSION_VALUES * sizeof(uint16_t); /* halves */
 
 /* Has what vertices see looked up in the buffer, or not. */
 static void look_up(const GlMeshes *self, bool in_buffer) {
@@ -153,16 +155,21 @@ static void begin_occlusion(GlMeshes *self, bool env_lights) {
     glBufferData(GL_ARRAY_BUFFER, seen_size * (GLsizeiptr)self->own_count, NULL, GL_STATIC_DRAW);
     for (size_t k = 0, at = 0; k < (env_lights ? 5 : 3); at += k++ ? 4 : 2) {
         GLuint attribute = (GLuint)(AT_OCCLUSION + k);
-        glVertexAttribPointer(attribute, k ? 4 : 2, GL_FLOAT, GL_FALSE, (GLsizei)seen_size,
-                              (const void *)(at * sizeof(float)));
+        glVertexAttribPointer(attribute, k ? 4 : 2, GL_HALF_FLOAT, GL_FALSE, (GLsizei)seen_size,
+                              (const void *)(at * sizeof(uint16_t)));
     }
     self->env_lights = env_lights;
     look_up(self, true);
 }
 
 WeftResult meshes_occlusion(GlMeshes *self, const float *values, WeftError *error) {
+    const size_t count = (size_t)self->own_count * OCCLUSION_VALUES;
+    uint16_t *halves = alloc_array(count, sizeof *halves);
+    if (!halves) return fail(error, WEFT_MESSAGE_MEMORY, "occlusion", NULL);
+    for (size_t k = 0; k < count; k++) halves[k] = half_bits(values[k]);
     begin_occlusion(self, true);
-    glBufferSubData(GL_ARRAY_BUFFER, 0, seen_size * (GLsizeiptr)self->own_count, values);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, seen_size * (GLsizeiptr)self->own_count, halves);
+    free(halves);
     return gl_check(error, "occlusion");
 }
 

@@ -68,6 +68,18 @@ void target_destroy(Target *self) {
     *self = (Target){0};
 }
 
+void target_keep_mean(Target *self) {
+    if (self->drawn == self->resolved) {
+        glBindFramebuffer(GL_FRAMEBUFFER, self->resolved);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, 0);
+    } else {
+        glDeleteFramebuffers(1, &self->drawn);
+    }
+    glDeleteRenderbuffers(1, &self->color);
+    glDeleteRenderbuffers(1, &self->depth);
+    self->drawn = self->color = self->depth = 0;
+}
+
 void target_resolve(const Target *self, const int box[4]) {
     if (self->drawn == self->resolved) return;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, self->drawn);

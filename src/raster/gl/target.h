@@ -8,7 +8,7 @@
 
 typedef struct Target {
     int width, height, samples;
-    unsigned drawn, resolved; /* framebuffers; the same with one sample */
+    unsigned drawn, resolved; /* framebuffers; the same with one sample. drawn is 0 where only the mean is kept */
     unsigned color, depth;    /* renderbuffers of drawn */
     unsigned mean;            /* texture of resolved */
 } Target;
@@ -17,6 +17,9 @@ typedef struct Target {
  * has these. Fails with WEFT_MESSAGE_GL_MEMORY or _GL_CONTEXT; the target is then empty. */
 WeftResult target_resize(Target *target, int width, int height, int samples, WeftError *error);
 void target_destroy(Target *target);
+
+/* Frees all but the mean. target_resize makes the target whole again. */
+void target_keep_mean(Target *target);
 
 /* Averages the samples into `resolved` within a box: x, y from below, width, height. */
 void target_resolve(const Target *target, const int box[4]);

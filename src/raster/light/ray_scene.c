@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
+#include "raster/geometry/ray_tree.h"
 #include "raster/gl/gl_check.h"
 #include "raster/light/ray_albedos.h"
 
@@ -27,7 +28,7 @@ static Vec3 corner_of(const Mesh *mesh, uint32_t triangle, int corner) {
     return vec3_load(mesh->position + 3 * (size_t)mesh->index[3 * (size_t)triangle + (size_t)corner]);
 }
 
-static bool make_tree(RayScene *self, const WeftScene *scene) {
+static bool make_tree(RayTree *tree, const WeftScene *scene) {
     const uint32_t count = count_triangles(scene);
     RayBox *boxes = alloc_array(count, sizeof *boxes), *to = boxes;
     if (!boxes) return false;
@@ -37,10 +38,8 @@ static bool make_tree(RayScene *self, const WeftScene *scene) {
                        c = corner_of(&scene->meshes[m], t, 2);
             *to++ = (RayBox){vec3_least(a, vec3_least(b, c)), vec3_most(a, vec3_most(b, c))};
         }
-    ray_tree_free(&self->tree);
-    const bool made = ray_tree_make(&self->tree, boxes, count);
+    const bool made = ray_tree_make(tree, boxes, count);
     free(boxes);
-    self->shape_version = scene->shape_version;
     return made;
 }
 
@@ -104,9 +103,8 @@ static size_t count_masks(const RayScene *self, const WeftScene *scene) {
 }
 
 /* Fills the texels. Returns false if memory is short. */
-static bool fill(const RayScene *self, const WeftScene *scene, const SheenTables *sheens, const RayEmitters *emitters,
-                 float *texels) {
-    const RayTree *tree = &self->tree;
+static bool fill(const RayScene *self, const RayTree *tree, const WeftScene *scene, const SheenTables *sheens,
+                 const RayEmitters *emitters, float *texels) {
     RayAlbedo *albedos = sheens ? ray_albedos_make(scene, sheens) : NULL;
     TrianglePlace *places = find_places(scene, tree->count);
     uint32_t *at = alloc_array(tree->count, sizeof *at);
@@ -143,12 +141,13 @@ static WeftResult upload(RayScene *self, int rows, const float *texels, WeftErro
     return gl_check(error, "triangles for rays");
 }
 
-static WeftResult fill_texture(RayScene *self, const WeftScene *scene, const SheenTables *sheens, WeftError *error) {
+static WeftResult fill_texture(RayScene *self, const RayTree *tree, const WeftScene *scene, const SheenTables *sheens,
+                               WeftError *error) {
     RayEmitters emitters;
     GLint most = 0;
     if (!ray_emitters_find(&emitters, scene)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    const size_t sizes[] = {2 * (size_t)self->tree.node_count, 3 * (size_t)self->tree.count,
-                            3 * (size_t)self->tree.count, 4 * (size_t)emitters.count, 3 * count_masks(self, scene)};
+    const size_t sizes[] = {2 * (size_t)tree->node_count, 3 * (size_t)tree->count, 3 * (size_t)tree->count,
+                            4 * (size_t)emitters.count, 3 * count_masks(self, scene)};
     size_t texels = 0;
     for (int k = 0; k < KINDS; k++) {
         self->first[k] = (int)texels;
@@ -161,33 +160,34 @@ static WeftResult fill_texture(RayScene *self, const WeftScene *scene, const She
     if (texels > RAY_NUMBER_MOST || rows > (size_t)most)
         result = fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name, "too many triangles to trace rays in a shader");
     float *all = result == WEFT_OK ? alloc_array(rows * RAY_ROW, 4 * sizeof *all) : NULL;
-    if (result == WEFT_OK && (!all || !fill(self, scene, sheens, &emitters, all)))
+    if (result == WEFT_OK && (!all || !fill(self, tree, scene, sheens, &emitters, all)))
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK) result = upload(self, (int)rows, all, error);
     free(all);
     ray_emitters_free(&emitters);
     self->filled = result == WEFT_OK;
+    self->shape_version = scene->shape_version;
+    self->nodes = tree->node_count;
     self->bounces = sheens != NULL;
     return result;
 }
 
 WeftResult ray_scene_make(RayScene *self, const WeftScene *scene, const SheenTables *sheens, WeftError *error) {
-    self->filled = self->filled && (self->bounces || !sheens);
-    const bool stale = !self->tree.nodes || self->shape_version != scene->shape_version;
+    RayTree tree = {0}; /* only the texture keeps it */
+    if (self->filled && (self->bounces || !sheens) && self->shape_version == scene->shape_version) return WEFT_OK;
     if (count_triangles(scene) >= RAY_NUMBER_MOST / 2)
         return fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name, "too many triangles to trace rays in a shader");
-    if (!self->filled) {
-        const WeftResult result = ray_masks_make(&self->masks, scene, error);
-        if (result != WEFT_OK) return result;
-    }
-    if (stale && !make_tree(self, scene)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    return stale || !self->filled ? fill_texture(self, scene, sheens, error) : WEFT_OK;
+    WeftResult result = ray_masks_make(&self->masks, scene, error);
+    if (result != WEFT_OK) return result;
+    result = make_tree(&tree, scene) ? fill_texture(self, &tree, scene, sheens, error)
+                                     : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    ray_tree_free(&tree);
+    return result;
 }
 
 void ray_scene_destroy(RayScene *self) {
     glDeleteTextures(1, &self->texture);
     ray_masks_destroy(&self->masks);
-    ray_tree_free(&self->tree);
     *self = (RayScene){0};
 }
 

@@ -16,7 +16,8 @@
  * All calls are for the context that is current. */
 #pragma once
 
-#include "raster/geometry/ray_tree.h"
+#include <stdint.h>
+
 #include "raster/light/ray_emitters.h"
 #include "raster/light/ray_masks.h"
 #include "scene/light/sheen_tables.h"
@@ -24,8 +25,8 @@
 enum { RAY_ROW = 2048 };
 
 typedef struct RayScene {
-    RayTree tree;
-    unsigned shape_version; /* of the tree, as in WeftScene */
+    unsigned shape_version; /* of the triangles, as in WeftScene */
+    uint32_t nodes;         /* of the tree over them */
     bool filled;            /* the texture has the scene as it is; set it to false when materials change */
     bool bounces;           /* the texture has what triangles send back */
     unsigned texture;       /* 0: none */

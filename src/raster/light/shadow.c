@@ -181,9 +181,9 @@ static float half_width(const Shadow *self, const Vec3 corners[8]) {
     return half;
 }
 
-/* Returns the shadow map of a polygon, from its middle towards the casters. It contains all of them, unless the polygon
+/* Returns the shadow map of a polygon with layers of side x side texels, from its middle towards the casters. It contains all of them, unless the polygon
  * is among them. */
-static Shadow of_polygon(const LightPolygon *polygon, Box casters) {
+static Shadow of_polygon(const LightPolygon *polygon, Box casters, int side) {
     const float most = 6.0f;
     Vec3 eye = {0}, right, up, corners[8], middle = vec3_scale(vec3_add(casters.low, casters.high), 0.5f);
     for (int k = 0; k < polygon->count; k++) eye = vec3_madd(eye, polygon->corners[k], 1.0f / (float)polygon->count);
@@ -201,7 +201,7 @@ static Shadow of_polygon(const LightPolygon *polygon, Box casters) {
     float half = half_width(&self, corners);
     if (!(half > 0.0f && half < most)) self.meeting = 0.0f, half = most;
     self.view = (View){.eye = eye, .forward = forward, .across = vec3_scale(right, half), .up = vec3_scale(up, half)};
-    self.texel = 2.0f * half / SHADOW_POINT_SIDE;
+    self.texel = 2.0f * half / (float)side;
     return self;
 }
 
@@ -216,13 +216,23 @@ View shadow_view(const Shadow *self, int point) {
     return view;
 }
 
+/* Returns the side of the layers with which the maps of `polygons` polygons take the memory of one at most. */
+static int point_side(int polygons) {
+    const int multiple = 8;
+    int side = SHADOW_POINT_SIDE;
+    while (polygons * side * side > SHADOW_POINT_SIDE * SHADOW_POINT_SIDE) side -= multiple;
+    return side;
+}
+
 static void choose(const WeftScene *scene, const LightPolygons *polygons, Shadows *self) {
     int half = SHADOWS_MOST / 2, wanted = polygons->count < half ? polygons->count : half;
     choose_lights(scene, SHADOWS_MOST - wanted, find_casters(scene, NULL), self);
-    for (int k = 0; k < polygons->count && self->count < SHADOWS_MOST; k++, self->polygons++) {
+    const int left = SHADOWS_MOST - self->count, maps = polygons->count < left ? polygons->count : left;
+    self->point_side = point_side(maps);
+    for (int k = 0; k < maps; k++, self->polygons++) {
         const LightPolygon *polygon = &polygons->items[k];
         Box casters = find_casters(scene, polygon);
-        add(self, scene, casters, of_polygon(polygon, casters), -1, k);
+        add(self, scene, casters, of_polygon(polygon, casters, self->point_side), -1, k);
     }
 }
 
@@ -255,8 +265,7 @@ static unsigned make_layers(GLint format, GLenum type, int side, int layers) {
 
 static void make_objects(Shadows *self) {
     self->hard = make_layers(GL_DEPTH_COMPONENT32F, GL_FLOAT, SHADOW_SIDE, self->count - self->polygons);
-    self->soft =
-        make_layers(GL_DEPTH_COMPONENT16, GL_UNSIGNED_SHORT, SHADOW_POINT_SIDE, SHADOW_POINTS * self->polygons);
+    self->soft = make_layers(GL_DEPTH_COMPONENT16, GL_UNSIGNED_SHORT, self->point_side, SHADOW_POINTS * self->polygons);
     glGenFramebuffers(1, &self->framebuffer);
     glGenSamplers(1, &self->compare);
     glSamplerParameteri(self->compare, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
@@ -295,7 +304,7 @@ void shadows_destroy(Shadows *self) {
 void shadows_begin(const Shadows *self, int k, int point) {
     static const GLenum none = GL_NONE;
     const int hard = self->count - self->polygons, layer = k < hard ? k : SHADOW_POINTS * (k - hard) + point;
-    const int side = k < hard ? SHADOW_SIDE : SHADOW_POINT_SIDE;
+    const int side = k < hard ? SHADOW_SIDE : self->point_side;
     glBindFramebuffer(GL_FRAMEBUFFER, self->framebuffer);
     glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, k < hard ? self->hard : self->soft, 0, layer);
     glDrawBuffers(1, &none);

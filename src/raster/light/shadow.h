@@ -10,7 +10,9 @@
 #include "raster/light/depths.h"
 #include "scene/light/polygons.h"
 
-enum { SHADOW_SIDE = 2048, SHADOW_POINT_SIDE = 512 }; /* texels */
+/* Texels along the side of a map, and of each of a polygon's if it is the only one. Several polygons share the memory of
+ * one. */
+enum { SHADOW_SIDE = 2048, SHADOW_POINT_SIDE = 512 };
 
 /* The shadow map of a light. */
 typedef struct Shadow {
@@ -28,6 +30,7 @@ typedef struct Shadows {
     int of_light[SHADOWS_MOST];    /* index of the punctual light, or -1 */
     int of_polygon[SHADOWS_MOST];  /* index of the polygon, or -1 */
     int polygons;                  /* number of maps of polygons, which are the last */
+    int point_side;                /* texels along the side of each of their layers */
     unsigned hard, soft;           /* array textures: a layer a punctual light, and SHADOW_POINTS layers a polygon */
     unsigned framebuffer, compare; /* compare: the sampler */
     bool drawn;                    /* the textures are up to date */

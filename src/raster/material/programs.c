@@ -295,23 +295,41 @@ bool programs_has(Programs *programs, const ShaderKey *key) {
     return p && !p->stale;
 }
 
-/* Deletes the program that was used longest ago. Returns false if all were used in the last PROGRAMS_LATE pictures. */
+/* Deletes a program and takes it out of the list, in which `at` points to it. */
+static void forget_at(Programs *programs, Program **at) {
+    Program *p = *at;
+    *at = p->next;
+    drop(programs, p);
+    free(p);
+}
+
+void programs_forget(Programs *programs, bool (*is_spare)(const ShaderKey *key)) {
+    for (Program **at = &programs->first; *at;) {
+        if (is_spare(&(*at)->key))
+            forget_at(programs, at);
+        else
+            at = &(*at)->next;
+    }
+}
+
+/* Returns true if a program shades: others are small. */
+static bool shades(const Program *self) { return !self->key.depth && !self->key.resolve; }
+
+/* Deletes the program that was used longest ago, of those that shade. Returns false if all were used in the last
+ * PROGRAMS_LATE pictures. */
 static bool forget_oldest(Programs *programs) {
     Program **oldest = NULL;
     for (Program **at = &programs->first; *at; at = &(*at)->next)
-        if (!oldest || (*at)->used <= (*oldest)->used) oldest = at;
+        if (shades(*at) && (!oldest || (*at)->used <= (*oldest)->used)) oldest = at;
     if (!oldest || programs->tick - (*oldest)->used < PROGRAMS_LATE) return false;
-    Program *p = *oldest;
-    *oldest = p->next;
-    drop(programs, p);
-    free(p);
+    forget_at(programs, oldest);
     return true;
 }
 
 /* Deletes programs until PROGRAMS_KEPT are left, among which are those to be compiled. */
 static void forget(Programs *programs) {
     int count = 0;
-    for (const Program *p = programs->first; p; p = p->next) count++;
+    for (const Program *p = programs->first; p; p = p->next) count += shades(p);
     while (count > PROGRAMS_KEPT && forget_oldest(programs)) count--;
 }
 

@@ -56,7 +56,7 @@ typedef struct Programs {
     unsigned tick;             /* pictures so far */
 } Programs;
 
-/* Programs that are kept, and the number of last pictures whose programs are kept in any case. A program may be some
+/* Programs that are kept, of those that shade, and the number of last pictures whose programs are kept in any case. A program may be some
  * ten megabytes of code. */
 enum { PROGRAMS_KEPT = 7, PROGRAMS_LATE = 3 };
 
@@ -65,6 +65,9 @@ bool programs_want(Programs *programs, const ShaderKey *key);
 
 /* Returns true if the key's program was built from the current text. */
 bool programs_has(Programs *programs, const ShaderKey *key);
+
+/* Deletes the programs whose keys are spare. */
+void programs_forget(Programs *programs, bool (*is_spare)(const ShaderKey *key));
 
 /* Compiles the recorded programs that are new or stale, several at once, in threads with contexts that share the
  * objects of `context`, which is current. Does nothing if there are none; else it changes which program is
