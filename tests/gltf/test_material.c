@@ -222,6 +222,78 @@ static void light_through_cloth_is_read(void **state) {
         "number");
 }
 
+static void glass_is_read(void **state) {
+    (void)state;
+    enum { R, G };
+    Reading *reading = read_material(
+        textures(), "'extensions':{'KHR_materials_transmission':{'transmissionFactor':0.8,'transmissionTexture':"
+                    "{'index':1}},'KHR_materials_volume':{'thicknessFactor':0.2,'thicknessTexture':{'index':1},"
+                    "'attenuationDistance':0.5,'attenuationColor':[0.9,0.5,0.25]},'KHR_materials_ior':{'ior':1.33}}");
+    assert_read(reading);
+    assert_input(reading, INPUT_transmission, 0.8f, 0, 0, R);
+    assert_input(reading, INPUT_thickness, 0.2f, 0, 0, G);
+    assert_input(reading, INPUT_attenuation_distance, 0.5f, 0, 0, -1);
+    assert_input(reading, INPUT_attenuation_color, 0.9f, 0.5f, 0.25f, -1);
+    assert_input(reading, INPUT_ior, 1.33f, 0, 0, -1);
+    assert_null(strstr(reading->warning, "KHR_materials"));
+    done(reading);
+    reading = read_material("", "'extensions':{'KHR_materials_transmission':{},'KHR_materials_volume':{}}");
+    assert_read(reading);
+    assert_input(reading, INPUT_transmission, 0, 0, 0, -1);
+    assert_input(reading, INPUT_thickness, 0, 0, 0, -1);
+    assert_input(reading, INPUT_attenuation_distance, 0, 0, 0, -1);
+    assert_input(reading, INPUT_attenuation_color, 1, 1, 1, -1);
+    done(reading);
+}
+
+/* Numbers that make no sense: clamped with a line, or refused with one. */
+static void wrong_numbers_of_glass_are_named(void **state) {
+    (void)state;
+    static const struct {
+        const char *volume, *warning;
+        InputId input;
+        float taken;
+    } cases[] = {
+        {"'attenuationDistance':0", "KHR_materials_volume.attenuationDistance: 0 is taken as infinite",
+         INPUT_attenuation_distance, 0.0f},
+        {"'attenuationDistance':-2", "KHR_materials_volume.attenuationDistance", INPUT_attenuation_distance, 0.0f},
+        {"'thicknessFactor':-1", "KHR_materials_volume.thicknessFactor", INPUT_thickness, 0.0f},
+        {"'attenuationColor':[2,1,1]", "KHR_materials_volume.attenuationColor", INPUT_attenuation_color, 1.0f},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char material[256];
+        snprintf(material, sizeof material, "'extensions':{'KHR_materials_volume':{%s}}", cases[k].volume);
+        Reading *reading = read_material("", material);
+        assert_read(reading);
+        if (!strstr(reading->warning, cases[k].warning)) fail_msg("%s: %s", cases[k].volume, reading->warning);
+        assert_float_equal(reading->scene->materials[0].inputs[cases[k].input].value[0], cases[k].taken, 0.0f);
+        done(reading);
+    }
+    assert_refused(read_material("", "'extensions':{'KHR_materials_transmission':{'transmissionFactor':'clear'}}"),
+                   WEFT_MESSAGE_GLTF_SCHEMA,
+                   "materials[0].extensions.KHR_materials_transmission.transmissionFactor: expected a number");
+}
+
+/* The asset opens even where it requires them, and one line says what is not shown. */
+static void extensions_that_are_left_out_say_what_is_lost(void **state) {
+    (void)state;
+    static const struct {
+        const char *name, *lost;
+    } cases[] = {{"KHR_materials_iridescence", "KHR_materials_iridescence: the colours of its thin films are left out"},
+                 {"KHR_materials_dispersion", "KHR_materials_dispersion: its glass bends all colours alike"}};
+    for (size_t k = 0; k < 2; k++) {
+        char first[256], material[128];
+        snprintf(first, sizeof first, "'extensionsUsed':['%s'],'extensionsRequired':['%s'],", cases[k].name,
+                 cases[k].name);
+        snprintf(material, sizeof material, "'extensions':{'%s':{}}", cases[k].name);
+        Reading *reading = read_material(first, material);
+        assert_read(reading);
+        assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_EXTENSION], 1);
+        if (!strstr(reading->warning, cases[k].lost)) fail_msg("%s", reading->warning);
+        done(reading);
+    }
+}
+
 /* Two texels of RGBA as a data URI. */
 static const char *picture(const unsigned char texels[8]) {
     const WeftImageWriting how = {.data = 1};
@@ -791,7 +863,7 @@ static void fields_of_an_object_and_of_a_texture_follow_one_another(void **state
         if (!material_field_replaces(a)) assert_ptr_equal(material_field_of((InputId)a->input), a);
         if (material_field_extends(a)) assert_true(gltf_supports(a->object));
     }
-    assert_false(gltf_supports("KHR_materials_transmission"));
+    assert_false(gltf_supports("KHR_materials_iridescence"));
     assert_false(gltf_supports(pbr_object));
 }
 
@@ -837,6 +909,9 @@ int main(void) {
         cmocka_unit_test(texture_of_an_unreadable_container_falls_back_to_its_source),
         cmocka_unit_test(material_variants_are_read),
         cmocka_unit_test(light_through_cloth_is_read),
+        cmocka_unit_test(glass_is_read),
+        cmocka_unit_test(wrong_numbers_of_glass_are_named),
+        cmocka_unit_test(extensions_that_are_left_out_say_what_is_lost),
         cmocka_unit_test(glossiness_is_read_as_workflow_specular),
         cmocka_unit_test(picture_of_glossiness_becomes_one_of_roughness),
         cmocka_unit_test(nap_of_the_extras_is_read),

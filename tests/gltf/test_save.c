@@ -236,7 +236,12 @@ static const struct {
               {"coat_color", {0.9f, 0.8f, 0.7f}},
               {"coat_darkening", {0.6f}},
               {"coat_anisotropy", {0.4f}},
-              {"coat_anisotropy_direction", {1.0f}}};
+              {"coat_anisotropy_direction", {1.0f}},
+              {"transmission", {0.6f}},
+              {"thickness", {0.02f}},
+              {"attenuation_color", {0.9f, 0.5f, 0.7f}},
+              {"attenuation_distance", {0.3f}},
+              {"ior", {1.4f}}};
 enum { COMING = sizeof coming / sizeof *coming };
 
 static char *text_of(const char *name) {
@@ -264,9 +269,10 @@ static void saved_coming_extensions_read_as_they_were(void **state) {
     WeftScene *first = saved(scene, "coming.gltf");
     const char *text = text_of("coming.gltf");
     static const char *const names[] = {
-        "KHR_materials_fuzz",  "KHR_materials_coat",      "KHR_materials_diffuse_roughness",
-        "KHR_materials_sheen", "KHR_materials_clearcoat", "KHR_materials_retroreflection",
-        "fuzzRoughnessFactor", "diffuseRoughnessFactor"};
+        "KHR_materials_fuzz",   "KHR_materials_coat",      "KHR_materials_diffuse_roughness",
+        "KHR_materials_sheen",  "KHR_materials_clearcoat", "KHR_materials_retroreflection",
+        "fuzzRoughnessFactor",  "diffuseRoughnessFactor",  "KHR_materials_transmission",
+        "KHR_materials_volume", "attenuationDistance"};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++)
         if (!strstr(text, names[k])) fail_msg("%s is not saved", names[k]);
     assert_int_equal(weft_scene_material(first, 0, &back, &error), WEFT_OK);
@@ -278,7 +284,7 @@ static void saved_coming_extensions_read_as_they_were(void **state) {
     const float *sheen = back.inputs[weft_material_input_find("sheen_color")].value;
     assert_true(sheen[0] > sheen[1] && sheen[1] > sheen[2] && sheen[2] > 0.0f);
     WeftScene *second = saved(first, "again.gltf");
-    assert_same(first, second, "fuzz, coat, matt base, retroreflection");
+    assert_same(first, second, "fuzz, coat, matt base, retroreflection, glass");
     weft_scene_free(second);
     weft_scene_free(first);
     weft_scene_free(scene);

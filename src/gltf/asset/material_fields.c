@@ -3,7 +3,8 @@
  * Of KHR_materials_fuzz, _coat, _diffuse_roughness and _retroreflection, which are not ratified, the texts of their
  * pull requests to KhronosGroup/glTF: 2538, 2534, 2481, 2610.
  *
- * ior, which is 0 or at least 1, has a rule of its own in the reader, the writer and the doctor.
+ * ior, which is 0 or at least 1, has a rule of its own in the reader, the writer and the doctor, and so has
+ * attenuationDistance, which is above 0, or infinite where it is absent: the input is 0 then.
  * KHR_texture_transform is part of any textureInfo. */
 #include "gltf/asset/material_fields.h"
 
@@ -63,10 +64,12 @@ const MaterialField material_fields[] = {
     {INPUT_coat_anisotropy, coat_object, "coatAnisotropyStrength", "coatAnisotropyTexture", CHANNEL_B, 0, UNIT},
     {INPUT_coat_anisotropy_direction, coat_object, "coatAnisotropyRotation", "coatAnisotropyTexture",
      CHANNELS_DIRECTION, 0, ANY},
-    {NO_INPUT, KHR("transmission"), "transmissionFactor", "transmissionTexture", CHANNEL_R, 0, UNIT},
-    {NO_INPUT, KHR("volume"), "thicknessFactor", "thicknessTexture", CHANNEL_G, 0, POSITIVE},
-    {NO_INPUT, KHR("volume"), "attenuationColor", NULL, CHANNELS_COLOR, 1, UNIT},
+    {INPUT_transmission, KHR("transmission"), "transmissionFactor", "transmissionTexture", CHANNEL_R, 0, UNIT},
+    {INPUT_thickness, KHR("volume"), "thicknessFactor", "thicknessTexture", CHANNEL_G, 0, POSITIVE},
+    {INPUT_attenuation_distance, KHR("volume"), "attenuationDistance", NULL, CHANNEL_R, 0, POSITIVE},
+    {INPUT_attenuation_color, KHR("volume"), "attenuationColor", NULL, CHANNELS_COLOR, 1, UNIT},
     {NO_INPUT, KHR("iridescence"), "iridescenceFactor", "iridescenceTexture", CHANNEL_R, 0, UNIT},
+    {NO_INPUT, KHR("dispersion"), "dispersion", NULL, CHANNEL_R, 0, POSITIVE},
     {INPUT_base_color, gloss_object, "diffuseFactor", "diffuseTexture", CHANNELS_COLOR_ALPHA, 1, UNIT},
     {INPUT_specular_color, gloss_object, "specularFactor", "specularGlossinessTexture", CHANNELS_COLOR, 1, UNIT},
     {INPUT_roughness, gloss_object, "glossinessFactor", "specularGlossinessTexture", CHANNEL_A_GLOSS, 1, UNIT},
@@ -77,6 +80,16 @@ const MaterialField *material_field_of(InputId input) {
     const MaterialField *field = material_fields;
     while (field->factor && field->input != (int)input) field++;
     return field;
+}
+
+const char *material_extension_lost(const char *extension) {
+    static const char *const losses[][2] = {
+        {KHR("iridescence"), "the colours of its thin films are left out"},
+        {KHR("dispersion"), "its glass bends all colours alike"},
+    };
+    for (size_t k = 0; k < sizeof losses / sizeof *losses; k++)
+        if (strcmp(losses[k][0], extension) == 0) return losses[k][1];
+    return NULL;
 }
 
 int material_field_numbers(const MaterialField *field) {

@@ -45,6 +45,10 @@ bool material_field_replaces(const MaterialField *field);
 /* Returns the row of an input that has one: of several, the one that does not replace another. */
 const MaterialField *material_field_of(InputId input);
 
+/* Returns what is not shown of a material extension whose rows have no input, as the end of a warning; NULL for any other
+ * extension. Its loss is no reason to refuse an asset that requires it. */
+const char *material_extension_lost(const char *extension);
+
 /* Returns how many numbers the factor has: 1, 3 or 4. */
 int material_field_numbers(const MaterialField *field);
 

@@ -49,6 +49,13 @@ bool gltf_supports(const char *extension) {
     return false;
 }
 
+/* Warns of an extension that is ignored, with what that leaves out where it is known. */
+static void ignored(const Asset *asset, const char *name) {
+    const char *lost = material_extension_lost(name);
+    warn(asset->log, WEFT_MESSAGE_GLTF_WARN_EXTENSION, asset->name, "%.80s%s%s", name, lost ? ": " : "",
+         lost ? lost : "");
+}
+
 /* Warns of each extension below a value that neither weft knows nor `named` has, and adds it there. The reader limits
  * the depth of JSON. */
 static void unnamed_check(Asset *asset, json_t *value, json_t *named) {
@@ -60,7 +67,7 @@ static void unnamed_check(Asset *asset, json_t *value, json_t *named) {
         if (strcmp(key, "extras") == 0) continue; /* extras belong to any application */
         if (strcmp(key, "extensions") == 0) json_object_foreach(part, name, extension) {
                 if (gltf_supports(name) || json_object_get(named, name)) continue;
-                warn(asset->log, WEFT_MESSAGE_GLTF_WARN_EXTENSION, asset->name, "%.80s", name);
+                ignored(asset, name);
                 json_object_set_new(named, name, json_true());
             }
         unnamed_check(asset, part, named);
@@ -74,14 +81,15 @@ static void extensions_check(Asset *asset) {
     for (size_t i = 0; i < count; i++) {
         Field field = field_element(&required, i);
         const char *name = field_text(&field, "");
-        if (!gltf_supports(name) && !asset->examined) asset_fail(asset, WEFT_MESSAGE_GLTF_EXTENSION, "%.80s", name);
+        if (!gltf_supports(name) && !material_extension_lost(name) && !asset->examined)
+            asset_fail(asset, WEFT_MESSAGE_GLTF_EXTENSION, "%.80s", name);
     }
     json_t *named = json_object();
     count = field_count(&used);
     for (size_t i = 0; i < count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&used, i);
         const char *name = field_text(&field, "");
-        if (!gltf_supports(name)) warn(asset->log, WEFT_MESSAGE_GLTF_WARN_EXTENSION, asset->name, "%.80s", name);
+        if (!gltf_supports(name)) ignored(asset, name);
         json_object_set_new(named, name, json_true());
     }
     if (asset->result == WEFT_OK) unnamed_check(asset, asset->root, named);

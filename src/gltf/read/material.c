@@ -96,6 +96,14 @@ static void ior_repair(const Field *material, float *ior) {
     }
 }
 
+/* Warns of an attenuationDistance that is there and 0, below which no light would come out: it is read as absent. */
+static void distance_check(const Field *material, float distance) {
+    const MaterialField *row = material_field_of(INPUT_attenuation_distance);
+    Field extension = field_extension(material, row->object), field = field_member(&extension, row->factor);
+    if (field.json && !(distance > 0.0f))
+        field_warn(&field, WEFT_MESSAGE_GLTF_WARN_REPAIRED, "%g is taken as infinite", (double)distance);
+}
+
 /* Warns of members that neither the rows of an object have nor glTF has beside them. row: the first of them. */
 static void members_check(const Field *object, const MaterialField *row) {
     static const char *const of_material[] = {"name", "pbrMetallicRoughness", "alphaMode", "doubleSided"};
@@ -124,6 +132,7 @@ static void rows_read(const Field *material, Input *inputs) {
         row_read(&object, row, inputs);
     }
     ior_repair(material, inputs[INPUT_ior].value);
+    distance_check(material, inputs[INPUT_attenuation_distance].value[0]);
 }
 
 /* Reads an input of extras.weft: a number, or three for a colour; an angle is in radians. */

@@ -98,7 +98,9 @@ static json_t *texture_json(Saving *saving, const Material *material, const Mate
     return row->channels > CHANNEL_A || input->channel == (int)row->channels ? texture_info(saving, input) : NULL;
 }
 
+/* Saves a row, but for an infinite attenuationDistance, which is absent. */
 static void row_save(Saving *saving, json_t *object, const Material *material, const MaterialField *row) {
+    if (row->input == INPUT_attenuation_distance && !(value(material, INPUT_attenuation_distance) > 0.0f)) return;
     json_t *info = texture_json(saving, material, row), *holder = material_field_inside(row) ? info : object;
     if (holder) saving_put(saving, holder, material_field_key(row), factor_json(material, row));
     if (info) saving_put(saving, object, row->texture, info);

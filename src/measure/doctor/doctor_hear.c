@@ -144,11 +144,13 @@ void doctor_hear(void *user, WeftMessage message, const char *text) {
     const MaterialField *row = place.of == WEFT_OF_MATERIAL ? row_of(field) : NULL;
     const int count = doctor->count;
     if (doctor->log.fn && message_result(message) != WEFT_INPUT) doctor->log.fn(doctor->log.user, message, text);
-    if (response->kind == WEFT_FINDING_EXTENSION_IGNORED && is_required(doctor, words)) return; /* an error says so */
+    const bool extension = response->kind == WEFT_FINDING_EXTENSION_IGNORED;
+    const bool loss = extension && strstr(words, ": ");  /* words say what is left out */
+    if (extension && is_required(doctor, words)) return; /* an error says so */
     if (response->kind == WEFT_FINDING_PART_IGNORED && row) {
         texture_found(doctor, row, place, words);
     } else {
-        doctor_found(doctor, response->kind, place, 0, (double)NAN, NULL, "%s%s", words, response->after);
+        doctor_found(doctor, response->kind, place, 0, (double)NAN, NULL, "%s%s", words, loss ? "" : response->after);
         if (doctor->count == count) return; /* the list is full */
         doctor_advise(doctor, "%s", response->fix);
     }

@@ -53,7 +53,7 @@ void check_extensions(WeftDoctor *doctor) {
     json_t *value;
     json_array_foreach(doctor_list(doctor, "extensionsRequired"), k, value) {
         const char *name = json_string_value(value);
-        if (!name || gltf_supports(name)) continue;
+        if (!name || gltf_supports(name) || material_extension_lost(name)) continue;
         doctor_found(doctor, WEFT_FINDING_EXTENSION_REQUIRED, (Place){WEFT_OF_ASSET, 0, "extensionsRequired"}, 0,
                      (double)NAN, NULL,
                      "%.64s is required, which weft does not support: any shape or pixels that it adds were "

@@ -50,12 +50,25 @@ static void check_ior_range(WeftDoctor *doctor, const Cloth *cloth) {
     doctor_advise(doctor, "write 1.5, which is a plain dielectric's");
 }
 
+static void check_distance_range(WeftDoctor *doctor, const Cloth *cloth, const char *path) {
+    double distance;
+    if (!doctor_numbers(cloth->json, path, &distance, 1) || distance > 0.0) return;
+    const Repair repair = {.act = REPAIR_REMOVE};
+    doctor_found(doctor, WEFT_FINDING_VALUE_RANGE, (Place){WEFT_OF_MATERIAL, cloth->index, path}, 0, distance, &repair,
+                 "attenuationDistance is %g, but must be above 0: some readers divide by it, and weft takes it as "
+                 "infinite",
+                 distance);
+    doctor_advise(doctor, "leave it out, if nothing is absorbed inside");
+}
+
 void check_ranges(WeftDoctor *doctor, const Cloth *cloth) {
     for (const MaterialField *row = material_fields; row->factor; row++) {
         char path[FIELD_PATH];
         material_field_path(row, row->factor, path);
         if (row->input == INPUT_ior)
             check_ior_range(doctor, cloth);
+        else if (row->input == INPUT_attenuation_distance)
+            check_distance_range(doctor, cloth, path);
         else if (row->low >= 0.0f)
             check_range(doctor, cloth, path, material_field_numbers(row), (double)row->low, (double)row->high);
     }

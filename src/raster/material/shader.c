@@ -276,7 +276,7 @@ static bool needs_tangent(const ShaderKey *key, const CompositionSlots *found) {
 }
 
 static bool same_slots(const CompositionSlots *a, const CompositionSlots *b) {
-    bool same = a->used == b->used && a->transmits == b->transmits && a->retro == b->retro;
+    bool same = a->used == b->used && a->transmits == b->transmits && a->glass == b->glass && a->retro == b->retro;
     for (int k = 0; k < SLOT_COUNT; k++) {
         const TextSlot *s = &a->slots[k], *t = &b->slots[k];
         same = same && s->count == t->count;

@@ -182,7 +182,8 @@ static bool sums_to_one(const Material *material) {
         float sum[3] = {0.0f};
         if (HAS_DIFFUSE(&stack)) slot_add(&stack.diffuse, cosines[k], sum);
         const Rgb through = stack.transmitted;
-        sum[0] += through.r, sum[1] += through.g, sum[2] += through.b;
+        const Rgb glass = rgb_mul(stack.glass_tint, stack_one_minus(stack.interface_f0));
+        sum[0] += through.r + glass.r, sum[1] += through.g + glass.g, sum[2] += through.b + glass.b;
         if (HAS_SPECULAR(&stack)) slot_add(&stack.specular, cosines[k], sum);
         if (HAS_SHEEN(&stack)) slot_add(&stack.sheen, cosines[k], sum);
         if (!(fmaxf(sum[0], fmaxf(sum[1], sum[2])) <= 1.0f)) return false;

@@ -295,6 +295,7 @@ static void inputs_lost(const MtlxNodeInfo *node, const Material *given, const c
                  {INPUT_dust, INPUT_dust},
                  {INPUT_retroreflection, INPUT_retroreflection},
                  {INPUT_diffuse_transmission, INPUT_diffuse_transmission},
+                 {INPUT_transmission, INPUT_transmission},
                  {INPUT_subsurface, INPUT_subsurface},
                  {INPUT_diffuse_roughness, INPUT_diffuse_roughness},
                  {INPUT_anisotropy, INPUT_anisotropy},

@@ -77,6 +77,10 @@ int hair_find(const char *name) {
     return -1;
 }
 
+bool material_is_solid(const Material *material) {
+    return material->inputs[INPUT_transmission].value[0] > 0.0f && material->inputs[INPUT_thickness].value[0] > 0.0f;
+}
+
 Material material_default(void) {
     Material material = {.alpha_cutoff = 0.5f};
     for (int k = 0; k < WEFT_HAIR_NUMBERS; k++) material.hair[k] = hair_infos[k].initial;

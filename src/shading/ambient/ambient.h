@@ -113,6 +113,18 @@ FN Rgb ambient_reflect_lights(const Stack *m, const StackView *view, Slots only,
     return sum;
 }
 
+/* Returns the light of an environment that comes through glass, all of it straight ahead: its radiance about -wo, as
+ * concentrated as the specular lobe (half of a lobe of alpha lies within the 2 alpha^2 of 1 - cosine that half of
+ * exp(kappa (cosine - 1)) has), times what F at cos_o lets through. What is behind the glass does not occlude it, nor does
+ * a solid bend it. over: what the layers above leave. */
+FN Rgb ambient_glass(const Stack *m, const StackView *w, AmbientSource s, Rgb over) {
+    Proxy p = lobe_proxy(&m->specular.lobe);
+    float kappa = 0.35f / max(p.ax * p.ay, 1e-4f);
+    SlotColors c = stack_glass_colors(m, w);
+    Rgb passed = rgb_scale(rgb_mix(c.f0, c.f90, schlick_s(w->o.z)), w->scale.diffuse * ambient_reflection(s));
+    return rgb_mul(rgb_mul(over, passed), ambient_radiance(s, dir(-w->o.x, -w->o.y, -w->o.z), kappa));
+}
+
 /* Returns what a stack reflects towards wo of an environment without its lights, and what comes through. t: the tables
  * of its lobes. occlusion, occlusion_behind: the visible part of the cosine-weighted sky on either side, 0 to 1. lights:
  * gets the view with scales for the lights still to be added, by the slots in only. It is linear in the diffuse lobe's
@@ -140,6 +152,7 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
         Rgb light = rgb_scale(ambient_irradiance(s, dir(-v.z.x, -v.z.y, -v.z.z)), behind);
         sum = rgb_add(sum, rgb_mul(through.diffuse, rgb_mul(m->transmitted, light)));
     }
+    if (HAS_GLASS(m) && SHOWS_DIFFUSE) sum = rgb_add(sum, ambient_glass(m, w, s, through.specular));
     if (HAS_SPECULAR(m)) {
         SlotLight light =
             LIGHT_OF_SLOT(specular)(t.specular, s, v, residual, m->specular.lobe, ambient_untinted(), -1.0f);

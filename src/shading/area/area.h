@@ -147,14 +147,31 @@ FN Rgb stack_polygon(const Stack *m, const StackView *view, Polygon p) {
     return sum;
 }
 
+/* Returns the light of a polygon of radiance 1 below the surface that thin glass lets through: that of its mirror image in
+ * the specular lobe, whose colours are those of the glass. */
+FN Rgb stack_polygon_glass(const Stack *m, const StackView *view, Polygon mirrored) {
+    Stack glass = *m;
+    SlotColors c = stack_glass_colors(m, view);
+    glass.specular.f0 = c.f0;
+    glass.specular.f90 = c.f90;
+    glass.extra_f0 = rgb_grey(0.0f);
+    glass.extra_f90 = rgb_grey(0.0f);
+    glass.extra_f_quadratic = rgb_grey(0.0f);
+    AreaDensity d = area_density(&m->specular.lobe, view->o);
+    Slots only = slots_of(false, true, false, false, false);
+    return area_slots_of(&glass, view, only, d, view->o, mirrored);
+}
+
 /* Returns the light of a polygon of radiance 1 below the surface that comes through: that of its mirror image at the points
- * of the cosine, each as the layers dim it. */
+ * of the cosine, each as the layers dim it, and through glass. */
 FN Rgb stack_polygon_behind(const Stack *m, const StackView *view, Polygon p) {
     Polygon q = p;
     for (int k = 0; k < p.count; k++) q.corners[k] = dir(p.corners[k].x, p.corners[k].y, -p.corners[k].z);
-    q = polygon_on_sphere(polygon_clip(q));
-    Rgb sum = rgb_grey(0.0f);
+    q = polygon_clip(q);
+    Rgb sum = rgb_grey(0.0f), clear = sum;
     if (q.count < 3 || view->o.z <= 0.0f) return sum;
+    if (HAS_GLASS(m)) clear = stack_polygon_glass(m, view, q);
+    q = polygon_on_sphere(q);
     Dir flux = polygon_flux(q), c = polygon_middle(q, flux), a = polygon_last(q);
     float seen = 0.0f;
     int rays = polygon_rays(q.count), steps = polygon_steps(q.count);
@@ -166,7 +183,7 @@ FN Rgb stack_polygon_behind(const Stack *m, const StackView *view, Polygon p) {
                 PolygonPoint v = polygon_point(c, ray, n, steps);
                 if (v.w.z > 0.0f) {
                     Angles angles = angles_between(view->o, v.w);
-                    StackValue value = stack_transmitted(m, view, &angles);
+                    StackValue value = stack_transmitted_evenly(m, view, &angles);
                     seen = seen + v.area * v.w.z;
                     sum = rgb_add(sum, rgb_scale(value.f_cos, v.area));
                 }
@@ -174,5 +191,5 @@ FN Rgb stack_polygon_behind(const Stack *m, const StackView *view, Polygon p) {
         }
         a = b;
     }
-    return rgb_scale(sum, (max(flux.z, 0.0f) + POLYGON_SMALL) / (seen + POLYGON_SMALL));
+    return rgb_add(clear, rgb_scale(sum, (max(flux.z, 0.0f) + POLYGON_SMALL) / (seen + POLYGON_SMALL)));
 }

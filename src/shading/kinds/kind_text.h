@@ -4,6 +4,7 @@
 #define HAS_LAYERED_SHEEN(m) HAS_SHEEN(m) /* a black one leaves all of the base */
 #define HAS_TRANSMITTED(m)   (KIND_TRANSMITS)
 #define HAS_RETRO(m)         false
+#define HAS_GLASS(m)         false
 #include "shading/dialect/loop.h"
 #include "shading/kinds/kind.h"
 #include "shading/kinds/kind_loops.h"

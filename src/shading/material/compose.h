@@ -116,6 +116,7 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
     m->combine = c.layer_by >= 0 ? c.layer_by : layer_combine(m->layer);
     if ((c.d >= 0 || c.v >= 0 || c.f >= 0) && HAS_SPECULAR(m)) {
         m->specular.lobe = compose_terms(compose_facets(m->specular.lobe), c.d, c.v, c.f, s);
+        m->glass_lost = 0.0f;
     }
     if (c.diffuse >= 0 && HAS_DIFFUSE(m)) {
         Lobe lobe = lobe_named(lobe_rough(c.diffuse, s->roughness), compose_diffuse_named(s));
@@ -160,6 +161,7 @@ FN void compose_base(Stack *m, Lobe lobe, Rgb single, Rgb multiple) {
     m->specular.normal = 0.0f;
     m->base_fresnel = BASE_FRESNEL_NONE;
     m->retro = 0.0f; /* threads lean: half a turn would make another lobe of them */
+    m->glass = 0.0f;
     m->diffuse.lobe = lobe;
     m->diffuse.f0 = single;
     m->diffuse.f90 = multiple;

@@ -46,15 +46,32 @@ FN int stack_slot_of(const StackView *view, float *u) {
 #define SAMPLE_SLOT(name, NAME, Name, wo)                                                                              \
     if (HAS_##NAME(stack) && slot == PLACE_##NAME && view->wo.z > 0.0f)                                                \
         IN_SLOT(name, sample_at)(stack->name.lobe.id, &stack->name##_prepared, &view->name##_view, &view->wo, u, v, i);
+
+/* Draws the mirror image above the surface of a direction from which light comes through thin glass. */
+FN void stack_draw_glass(const Stack *stack, const StackView *view, float u, float v, Dir *i) {
+    bool evenly = stack_takes(stack_glass_lost(stack, view->o.z), &u);
+    IN_SLOT(specular, sample_at)
+    (stack->specular.lobe.id, &stack->specular_prepared, &view->specular_view, &view->o, u, v, i);
+    if (evenly) *i = warp_cosine(u, v);
+}
+
 /* Works as stack_sample of material_stack.h. */
 FN void stack_draw_direction(const Stack *stack, const StackView *view, float u, float v, Dir *i) {
     int slot = stack_slot_of(view, &u);
-    bool through = false;
+    bool through = false, clear = false;
     *i = dir(0.0f, 0.0f, -1.0f);
     if (HAS_TRANSMITTED(stack) && slot == PLACE_DIFFUSE) through = stack_takes_transmitted(stack, &u);
     if (through) {
         Dir above = warp_cosine(u, v);
         *i = dir(above.x, above.y, -above.z);
+        return;
+    }
+    if (HAS_GLASS(stack) && slot == PLACE_DIFFUSE)
+        clear = stack_takes(stack->glass_p / max(1.0f - stack->transmitted_p, 1e-12f), &u);
+    if (HAS_GLASS(stack) && clear) {
+        Dir above = *i;
+        stack_draw_glass(stack, view, u, v, &above);
+        *i = dir(above.x, above.y, -max(above.z, 0.0f));
         return;
     }
     bool of_base = slot == PLACE_DIFFUSE || slot == PLACE_SPECULAR, opposite = false;

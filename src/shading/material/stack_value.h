@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/material/stack_view.h"
+#include "shading/terms/ggx_lost.h"
 
 /* Sets v to f and the pdf of a slot's lobe. pair: wo and wi in the slot's frame. */
 #define SLOT_VALUE(slot, pair)                                                                                         \
@@ -39,7 +40,7 @@ FN StackValue stack_base_value(const Stack *m, const StackView *w, Slots only, c
         SLOT_VALUE(diffuse, a)
         f = rgb_scale(v.f, w->scale.diffuse);
         pdf = w->select_p.diffuse * v.pdf;
-        if (HAS_TRANSMITTED(m)) pdf = pdf * (1.0f - m->transmitted_p);
+        if (HAS_TRANSMITTED(m)) pdf = pdf * (1.0f - m->transmitted_p - m->glass_p);
         f = stack_under_interface(m, w, a, below_f, through, f);
     }
     if (only.specular && HAS_SPECULAR(m)) {
@@ -99,9 +100,9 @@ FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, con
     return sum;
 }
 
-/* Returns f cos_i and the pdf of light from below the surface. a: of its mirror image above. Of layer rule stochastic it
- * is the first pass. */
-FN StackValue stack_transmitted(const Stack *m, const StackView *w, const Angles *a) {
+/* Returns f cos_i and the pdf of light from below the surface that cloth lets through. a: of its mirror image above. Of
+ * layer rule stochastic it is the first pass. */
+FN StackValue stack_transmitted_evenly(const Stack *m, const StackView *w, const Angles *a) {
     bool layered = HAS_LAYERED_SHEEN(m), below_f = IS_BELOW_F(m) && layered;
     float lambert = a->i.z / PI;
     Rgb f = rgb_scale(m->transmitted, w->scale.diffuse), through = f;
@@ -111,6 +112,58 @@ FN StackValue stack_transmitted(const Stack *m, const StackView *w, const Angles
     StackValue v;
     v.f_cos = rgb_scale(f, lambert);
     v.pdf = w->select_p.diffuse * m->transmitted_p * lambert;
+    return v;
+}
+
+/* Returns the colours of the specular lobe that make what its interface lets through of it: tint (1 - F). */
+FN SlotColors stack_glass_colors(const Stack *m, const StackView *w) {
+    SlotColors c;
+    c.f0 = rgb_mul(m->glass_tint, stack_one_minus(w->interface_f0));
+    c.f90 = rgb_scale(m->glass_tint, max(1.0f - w->interface_f90, 0.0f));
+    c.f_quadratic = rgb_grey(0.0f);
+    return c;
+}
+
+/* Returns the layer rule's factor on light through glass, with that of dust and coat. */
+FN Rgb stack_over_glass(const Stack *m, const StackView *w, const Angles *a) {
+    bool layered = HAS_LAYERED_SHEEN(m), below_f = IS_BELOW_F(m) && layered;
+    Rgb f = rgb_grey(w->scale.diffuse);
+    if (below_f) f = rgb_mul(f, w->base_scale);
+    if (layered && !below_f) f = stack_under_sheen(m, w, a, f);
+    return f;
+}
+
+/* Returns what facets lose of light from wo, 0 where it stays lost. */
+FN float stack_glass_lost(const Stack *m, float cosine) {
+    float lost = 0.0f;
+    if (m->glass_lost > 0.0f) lost = ggx_lost(m->glass_lost, cosine);
+    return lost;
+}
+
+/* Returns f cos_i and the pdf of light from below the surface that thin glass lets through. a: of its mirror image above;
+ * pdf: of stack_draw_glass alone. */
+FN StackValue stack_through_glass(const Stack *m, const StackView *w, const Angles *a) {
+    SlotColors c = stack_glass_colors(m, w);
+    LobeReflected v;
+    IN_SLOT(specular, reflect)(m->specular.lobe.id, &m->specular_prepared, &w->specular_view, a, &c.f0, &c.f90, &v);
+    float lost_o = stack_glass_lost(m, a->o.z), lost_i = stack_glass_lost(m, a->i.z), lambert = a->i.z / PI;
+    Rgb f = v.f;
+    if (m->glass_lost > 0.0f)
+        f = rgb_add(f, rgb_scale(m->glass_tint, lost_o * lost_i / (PI * ggx_lost_average(m->glass_lost))));
+    StackValue g;
+    g.f_cos = rgb_scale(rgb_mul(f, stack_over_glass(m, w, a)), a->i.z);
+    g.pdf = mix(v.pdf, lambert, lost_o);
+    return g;
+}
+
+/* Returns f cos_i and the pdf of light from below the surface that comes through. a: of its mirror image above. */
+FN StackValue stack_transmitted(const Stack *m, const StackView *w, const Angles *a) {
+    StackValue v = stack_transmitted_evenly(m, w, a);
+    if (HAS_GLASS(m)) {
+        StackValue g = stack_through_glass(m, w, a);
+        v.f_cos = rgb_add(v.f_cos, g.f_cos);
+        v.pdf = v.pdf + w->select_p.diffuse * m->glass_p * g.pdf;
+    }
     return v;
 }
 

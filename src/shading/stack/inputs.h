@@ -48,6 +48,14 @@
       "share of the diffuse light that goes through cloth in place of back")                                           \
     P(COLOR, diffuse_transmission_color, "colour of that light", 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, SHAPE,                  \
       "colour of the light that does")                                                                                 \
+    P(SCALAR, transmission, "glass, light through", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, HALF,                                \
+      "share of the light below the reflection that goes through as through glass, in base_color")                     \
+    P(SCALAR, thickness, "glass, thickness", 0.0f, 0.0f, 1.0f, 0.0f, 1e6f, NONE,                                       \
+      "metres; 0: a thin sheet that bends no light; above: solid, bends light by ior")                                 \
+    P(COLOR, attenuation_color, "glass, colour inside", 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, NONE,                            \
+      "what is left of white light after attenuation_distance inside solid glass")                                     \
+    P(SCALAR, attenuation_distance, "glass, distance of it", 0.0f, 0.0f, 1.0f, 0.0f, 1e6f, NONE,                       \
+      "metres that light goes for attenuation_color; 0: nothing is absorbed inside")                                   \
     P(SCALAR, anisotropy, "stretch, anisotropy", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, MIX,                                    \
       "stretch of the highlight along anisotropy_direction")                                                           \
     P(DIRECTION, anisotropy_direction, "stretch direction", 0.0f, 0.0f, 360.0f, -1e6f, 1e6f, NONE,                     \

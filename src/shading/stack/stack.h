@@ -8,6 +8,12 @@
  * by everything that is over the diffuse lobe as if wi were its mirror image above, since the layers in front are
  * behind too: so f is as reciprocal as the layers are, and both sides together reflect what one did.
  *
+ * Thin glass lets a share of the light below the specular interface through without bending it: the specular lobe with
+ * wi mirrored, in a colour, times 1 - F; what that lobe loses between its facets goes through too, evenly (ggx_lost.h).
+ * It is dimmed by the layers above as cloth's light is, and it and the reflection of a white pane send on all light.
+ * Khronos Group, KHR_materials_transmission, 2021. The path tracer takes the glass of solids out of the stack, since
+ * they bend light (trace/path/solid.h).
+ *
  * A retroreflective base turns a share of its light back: specular and diffuse lobe are blended linearly with themselves
  * for the mirror direction of wo. All lobes but those of threads are the same for both directions turned about the
  * normal by half a turn, so wi is turned in place of wo: f is as reciprocal and E the same. Jamie Portsmouth, Matthias
@@ -90,11 +96,15 @@ STRUCT(Stack) {
     float transmission;         /* the share of the diffuse slot's energy that goes through */
     Rgb transmitted;            /* the colour of that light, times its share */
     float transmitted_p;        /* the share of the diffuse slot's samples */
-    int layer, combine;         /* LAYER_ADDITIVE ...; LAYER_BY_MAX or LAYER_BY_CHANNEL */
-    Rgb color;                  /* colour of the sheen in the layer rule */
-    Rgb sheen_color;            /* colour, times weight, of a lobe that is chosen for the sheen */
-    float amount;               /* k of layer rule seed: the amount of the sheen */
-    int albedo;                 /* source of E: ALBEDO_TABLE ... */
+    float glass;        /* the share of the light below the specular interface that goes through as through glass */
+    Rgb glass_tint;     /* the colour of that light, times its share */
+    float glass_p;      /* the share of the diffuse slot's samples */
+    float glass_lost;   /* alpha of facets whose lost light goes through; 0: it stays lost */
+    int layer, combine; /* LAYER_ADDITIVE ...; LAYER_BY_MAX or LAYER_BY_CHANNEL */
+    Rgb color;          /* colour of the sheen in the layer rule */
+    Rgb sheen_color;    /* colour, times weight, of a lobe that is chosen for the sheen */
+    float amount;       /* k of layer rule seed: the amount of the sheen */
+    int albedo;         /* source of E: ALBEDO_TABLE ... */
     TableRef table;
     Nap nap;                    /* lean of the sheen's fibres */
     float albedo_coord;         /* the sheen's shape parameter at which E is looked up */
@@ -138,9 +148,8 @@ STRUCT(StackValue) {
 };
 
 /* HAS_DIFFUSE and so on test whether a slot holds a lobe, HAS_LAYERED_SHEEN whether the layer rule has a
- * sheen that is not black, HAS_TRANSMITTED whether the base lets light through, HAS_RETRO whether it turns light
- * back. A shader, whose slots are fixed,
- * defines them as constants: an empty slot costs nothing. */
+ * sheen that is not black, HAS_TRANSMITTED whether the base lets light through, HAS_GLASS whether as glass does, HAS_RETRO
+ * whether it turns light back. A shader, whose slots are fixed, defines them as constants: an empty slot costs nothing. */
 #ifndef HAS_DIFFUSE
 #define HAS_DIFFUSE(m)       ((m)->diffuse.normal > 0.0f)
 #define HAS_SPECULAR(m)      ((m)->specular.normal > 0.0f)
@@ -148,7 +157,10 @@ STRUCT(StackValue) {
 #define HAS_COAT(m)          ((m)->coat.normal > 0.0f)
 #define HAS_DUST(m)          ((m)->dust.normal > 0.0f)
 #define HAS_LAYERED_SHEEN(m) ((m)->color.r + (m)->color.g + (m)->color.b > 0.0f)
-#define HAS_TRANSMITTED(m)   ((m)->transmission > 0.0f)
+#define HAS_TRANSMITTED(m)   ((m)->transmission > 0.0f || (m)->glass > 0.0f)
+#endif
+#ifndef HAS_GLASS
+#define HAS_GLASS(m) ((m)->glass > 0.0f)
 #endif
 #ifndef HAS_RETRO
 #define HAS_RETRO(m) ((m)->retro > 0.0f)
@@ -213,6 +225,10 @@ FN void stack_clear(Stack *m) {
     m->transmission = 0.0f;
     m->transmitted = rgb_grey(0.0f);
     m->transmitted_p = 0.0f;
+    m->glass = 0.0f;
+    m->glass_tint = rgb_grey(0.0f);
+    m->glass_p = 0.0f;
+    m->glass_lost = 0.0f;
     m->layer = LAYER_ADDITIVE;
     m->combine = LAYER_BY_MAX;
     m->color = rgb_grey(0.0f);
@@ -247,18 +263,27 @@ FN Dir stack_to_coat(const Stack *m, Dir w) {
     return dir(dir_dot(w, m->coat_x), dir_dot(w, m->coat_y), dir_dot(w, m->coat_z));
 }
 
-/* Takes the transmitted share from the diffuse slot, after its lobe is chosen. Samples are divided by what is
+/* Returns what the specular interface lets through of glass at normal incidence. */
+FN float stack_glass_facing(const Stack *m) {
+    float facing = 0.0f;
+    if (HAS_GLASS(m)) facing = max(rgb_mean(m->glass_tint) * (1.0f - rgb_max3(m->interface_f0)), 0.0f);
+    return facing;
+}
+
+/* Takes the transmitted shares from the diffuse slot, after its lobe is chosen. Samples are divided by what is
  * reflected and what is transmitted; so a black lobe that transmits keeps its slot. */
 FN void stack_split_diffuse(Stack *m) {
     if (!HAS_TRANSMITTED(m)) return;
-    float kept = 1.0f - m->transmission, through = rgb_mean(m->transmitted);
-    float facing = max(through * (1.0f - rgb_max3(m->interface_f0)), 0.0f);
-    float least = m->diffuse.normal + through > 0.0f ? 1e-30f : 0.0f;
+    float kept = (1.0f - m->transmission) * (1.0f - m->glass), through = rgb_mean(m->transmitted);
+    float facing = max(through * (1.0f - rgb_max3(m->interface_f0)), 0.0f), clear = stack_glass_facing(m);
+    float least = m->diffuse.normal + through + clear > 0.0f ? 1e-30f : 0.0f;
     m->diffuse.f0 = rgb_scale(m->diffuse.f0, kept);
     m->diffuse.f90 = rgb_scale(m->diffuse.f90, kept);
-    m->diffuse.normal = max(kept * m->diffuse.normal + facing, least);
+    m->diffuse.normal = max(kept * m->diffuse.normal + facing + clear, least);
+    through = through + rgb_mean(m->glass_tint);
     m->diffuse.grazing = kept * m->diffuse.grazing + max(through * (1.0f - m->interface_f90), 0.0f);
     m->transmitted_p = min(facing / max(m->diffuse.normal, 1e-30f), 1.0f);
+    m->glass_p = min(clear / max(m->diffuse.normal, 1e-30f), 1.0f - m->transmitted_p);
 }
 
 /* Prepares the lobes, after their parameters are set. */

@@ -25,10 +25,11 @@ FN Choices choices_unmade(void) {
     return c;
 }
 
-/* Returns the surface without what only glTF's coming extensions have, but for fuzz, which a choice decides. */
+/* Returns the surface without glass and what only glTF's coming extensions have, but for fuzz, which a choice decides. */
 FN Surface surface_without_coming(Surface s) {
     s.diffuse_roughness = 0.0f;
     s.retroreflection = 0.0f;
+    s.transmission = 0.0f;
     s.coat_ior = 1.5f;
     s.coat_color.r = 1.0f;
     s.coat_color.g = 1.0f;

@@ -64,6 +64,29 @@ FN void workflow_base(Stack *m, const Surface *s, Rgb diffuse, Rgb f0, float f90
               mean * (1.0f - rgb_max3(m->interface_f0)), mean * (1.0f - m->interface_f90));
 }
 
+/* Returns what solid glass leaves of light after `path` metres inside: T = c^(path / d), Beer's law. Khronos Group,
+ * KHR_materials_volume, 2021. Johann Heinrich Lambert, "Photometria", 1760; August Beer, 1852. */
+FN Rgb glass_left(const Surface *s, float path) {
+    Rgb c = s->attenuation_color, left = rgb_grey(1.0f);
+    float x = path / max(s->attenuation_distance, 1e-6f);
+    bool absorbs = s->attenuation_distance > 0.0f && path > 0.0f;
+    if (absorbs) left = rgb(pow(max(c.r, 1e-6f), x), pow(max(c.g, 1e-6f), x), pow(max(c.b, 1e-6f), x));
+    return left;
+}
+
+/* Lets light through as glass does, in the base colour; weight: of what is below the interface. Called after
+ * workflow_base. Thick glass is here a thin sheet that absorbs as much as its thickness does. Khronos Group,
+ * KHR_materials_transmission, 2021. */
+FN void workflow_glass(Stack *m, const Surface *s, float weight) {
+    if (s->transmission <= 0.0f) return;
+    float share = s->transmission * weight;
+    m->glass = share;
+    m->glass_tint = rgb_scale(rgb_mul(s->base_color, glass_left(s, s->thickness)), share);
+    m->glass_lost = m->specular.lobe.params[GGX_ALPHA];
+    m->transmitted = rgb_scale(m->transmitted, 1.0f - share);
+    m->specular.normal = max(m->specular.normal, 1e-30f); /* its lobe is that of the glass even where it is black */
+}
+
 /* Sets the matt roughness of the diffuse lobe: EON of Jamie Portsmouth, Peter Kutz, Stephen Hill, JCGT 14(1), 2025, as
  * KHR_materials_diffuse_roughness has it (glTF pull request 2481); its alpha is the roughness itself. */
 FN void workflow_matt(Stack *m, const Surface *s) {
@@ -84,6 +107,7 @@ FN void workflow_tint_below(Stack *m, Rgb t) {
     m->extra_f90 = rgb_mul(m->extra_f90, t);
     m->extra_f_quadratic = rgb_mul(m->extra_f_quadratic, t);
     m->transmitted = rgb_mul(m->transmitted, t);
+    m->glass_tint = rgb_mul(m->glass_tint, t);
     if (m->sheen_over_coat) return;
     m->sheen.f0 = rgb_mul(m->sheen.f0, t);
     m->sheen.f90 = rgb_mul(m->sheen.f90, t);

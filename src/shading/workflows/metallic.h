@@ -7,10 +7,11 @@
  *   coat_F = clearcoat (0.04 + 0.96 (1 - cos_o)^5)
  *   keep   = what the layer rule leaves for the base under the sheen
  *   A material that has fuzz has lobe ltc-fibre in place of the sheen, over the coat. A coat may have an ior, a colour,
- * darkening and a stretch of its own, a diffuse lobe a roughness (eon), and the base may turn light back (stack.h).
+ * darkening and a stretch of its own, a diffuse lobe a roughness (eon), and the base may turn light back or be of glass
+ * (stack.h).
  *
  *   Khronos Group, "glTF 2.0 Specification", 2021, Appendix B; KHR_materials_specular, _ior, _clearcoat,
- * _sheen, _anisotropy; the drafts _fuzz, _coat, _diffuse_roughness, _retroreflection, 2025 and 2026. Without an ior F0 is the artist's reflectance, by default 0.03. Departure: F_min,
+ * _sheen, _anisotropy, _transmission, _volume; the drafts _fuzz, _coat, _diffuse_roughness, _retroreflection, 2025 and 2026. Without an ior F0 is the artist's reflectance, by default 0.03. Departure: F_min,
  * which dims the diffuse lobe, is that of a dielectric at the least of wi . h, cos_o and cos_i. With wi . h
  * alone, as glTF has it, a smooth white dielectric reflects up to 2 - f0 times what it receives at grazing, 1.85 times at
  * roughness 0.05 (weft plot albedo khronos:base_color=1,sheen=0,roughness=0.05 --csv); so it never passes 1
@@ -35,6 +36,7 @@ FN void metallic_with(Stack *m, const Surface *s, Lobe sheen, int layer, int bas
     workflow_transmission(m, s, 1.0f - s->metallic);
     workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), rgb_mix(f0, s->base_color, s->metallic),
                   mix(s->specular, 1.0f, s->metallic));
+    workflow_glass(m, s, 1.0f - s->metallic);
 }
 
 FN void metallic_stack(Stack *m, const Surface *s) {

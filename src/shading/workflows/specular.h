@@ -19,6 +19,7 @@ FN void specular_stack(Stack *m, const Surface *s) {
     m->interface_f90 = 1.0f;
     workflow_transmission(m, s, 1.0f - rgb_max3(f0));
     workflow_base(m, s, rgb_scale(s->base_color, 1.0f - rgb_max3(f0)), f0, 1.0f);
+    workflow_glass(m, s, 1.0f);
     if (m->has_fuzz) workflow_fuzz(m, s, lobe_default(LOBE_LTC_FIBRE));
     workflow_coming(m, s);
 }

@@ -98,6 +98,7 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
         const Stack *made = &m;
         found.used &= !IS_BELOW_F(made);
         found.transmits |= HAS_TRANSMITTED(made);
+        found.glass |= HAS_GLASS(made);
         found.retro |= HAS_RETRO(made);
     }
     return found;
@@ -120,6 +121,7 @@ void text_composition_lobes(Text *text, const CompositionSlots *found, int table
     for (int k = 0; k < SLOT_COUNT; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
     text_define(text, "HAS_LAYERED_SHEEN(m)", found->used ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
     text_define(text, "HAS_TRANSMITTED(m)", found->transmits ? "true" : "false");
+    text_define(text, "HAS_GLASS(m)", found->glass ? "true" : "false");
     text_define(text, "HAS_RETRO(m)", found->retro ? "true" : "false");
     text_dispatch(text, ids, count);
     text_slots(text, found->slots, found->sampled);

@@ -15,6 +15,7 @@ typedef struct CompositionSlots {
     TextSlot begun; /* highlights that choices of D, V and F then replace by one of the same alphas */
     bool used;      /* no layer rule may leave out a black sheen (IS_BELOW_F) */
     bool transmits; /* a base transmits light */
+    bool glass;     /* a base transmits as glass does */
     bool retro;     /* a base turns light back */
     bool sampled;   /* set by the caller: the text draws directions by the lobes (stack_sample.h) */
 } CompositionSlots;

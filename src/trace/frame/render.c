@@ -193,6 +193,7 @@ static void set_context(WeftRender *render) {
                              .shadows = !d->no_shadows,
                              .lift = !d->no_lift,
                              .stages = d->stages != 0,
+                             .solids = path_materials_solid(render->materials, scene_shaded_materials(render->scene)),
                              .sky_in_parts = environment_in_parts(&render->scene->environment),
                              .first_hits = d->first_hits != 0,
                              .places = d->places || d->mattes,

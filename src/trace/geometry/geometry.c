@@ -49,7 +49,7 @@ static Hit from_embree(const struct RTCHit *h, float t) {
 enum { CHECK_SIDE = 1, CHECK_OPACITY = 2 };
 static unsigned char checks_of(const WeftScene *scene, int mesh) {
     const Material *material = &scene->materials[scene->meshes[mesh].material];
-    int checks = material->double_sided ? 0 : CHECK_SIDE;
+    int checks = material->double_sided || material_is_solid(material) ? 0 : CHECK_SIDE;
     if (material->alpha_mode != WEFT_ALPHA_OPAQUE) checks |= CHECK_OPACITY;
     return (unsigned char)checks;
 }

@@ -30,6 +30,7 @@ typedef struct Paths {
     float sky_throughput[3][PATHS_CAPACITY]; /* for the environment, if sky_in_parts */
     float pdf[PATHS_CAPACITY];               /* of the direction, 1/sr; 0 for the camera's and a mirror's */
     float horizon_normal[3][PATHS_CAPACITY]; /* of the vertex at the origin (see Chunk), if pdf > 0 */
+    int inside[PATHS_CAPACITY]; /* 1 + the material whose solid glass the ray is in; 0: none; if `solids` */
 } Paths;
 
 /* The sums of finished paths, by their ids: radiance times coverage, and coverage. */
@@ -75,24 +76,25 @@ typedef struct Chunk {
     Row u, v; /* barycentric weights of the second and third corner */
 
     /* the points that they hit */
-    Row corner[3][3];        /* position, by vertex of the triangle, by axis */
-    Row corner_normal[3][3]; /* 0 if the mesh has none */
-    Row tangent[3];          /* as stored, on the viewer's side */
-    Row handedness;          /* of the bitangent, 1 or -1 */
-    Row position[3];         /* on the triangle */
-    Row lifted[3];           /* on the smooth surface that the corner normals describe */
-    Row origin[3];           /* of rays that leave on the viewer's side */
-    Row origin_behind[3];    /* of rays that leave on the far side, if the material transmits */
-    Row geometric[3];        /* normal of the triangle on the viewer's side */
-    Row normal[3];           /* interpolated normal on the viewer's side */
-    Row visible[3];          /* of the shading frame without a normal map: normal, where the viewer sees its side */
-    Row side;                /* 1 if the viewer sees the triangle's front, else -1 */
-    Row *horizon_normal;     /* geometric or visible: light from below its plane does not count */
-    Row uv_edge[2][2];       /* differences of texture coordinates along two edges, on a woven material */
-    ClothLooks cloth_points; /* where and how finely a woven material is looked up */
-    ClothGuide cloth_guide;  /* of camera rays, if first hits are recorded */
-    Row frame[3][3];         /* x, y, z of the shading frame */
-    KindVertices vertices;   /* inputs, directions, f cos and pdf in the shading frame */
+    Row corner[3][3];         /* position, by vertex of the triangle, by axis */
+    Row corner_normal[3][3];  /* 0 if the mesh has none */
+    Row tangent[3];           /* as stored, on the viewer's side */
+    Row handedness;           /* of the bitangent, 1 or -1 */
+    Row position[3];          /* on the triangle */
+    Row lifted[3];            /* on the smooth surface that the corner normals describe */
+    Row origin[3];            /* of rays that leave on the viewer's side */
+    Row origin_behind[3];     /* of rays that leave on the far side, if the material transmits */
+    Row geometric[3];         /* normal of the triangle on the viewer's side */
+    Row normal[3];            /* interpolated normal on the viewer's side */
+    Row visible[3];           /* of the shading frame without a normal map: normal, where the viewer sees its side */
+    int inside[ROW_CAPACITY]; /* of the path that arrives, as in Paths, if `solids` */
+    Row side;                 /* 1 if the viewer sees the triangle's front, else -1 */
+    Row *horizon_normal;      /* geometric or visible: light from below its plane does not count */
+    Row uv_edge[2][2];        /* differences of texture coordinates along two edges, on a woven material */
+    ClothLooks cloth_points;  /* where and how finely a woven material is looked up */
+    ClothGuide cloth_guide;   /* of camera rays, if first hits are recorded */
+    Row frame[3][3];          /* x, y, z of the shading frame */
+    KindVertices vertices;    /* inputs, directions, f cos and pdf in the shading frame */
 
     /* light samples, and the one of the material that continues the path */
     LightRows light_samples[LIGHT_GROUPS];
@@ -117,6 +119,7 @@ typedef struct Chunk {
     TexelRows textures;
     Stack stack; /* of the vertex that is shaded by itself, and its view */
     StackView view;
+    SolidGlass glass;   /* of such a vertex, if its material is solid */
     StageClock *clock;  /* NULL: stages are not timed */
     LightBySlot *slots; /* NULL: light is not divided by slots */
 } Chunk;
@@ -140,6 +143,13 @@ void chunk_place(Chunk *chunk, const ChunkSource *source);
 
 /* Fills the shading frames, and wo in them (vertex.c). */
 void chunk_make_frames(Chunk *chunk, const ChunkSource *source);
+
+/* Takes from the paths what solid glass absorbs of their light (inside.c). */
+void chunk_absorb(Chunk *chunk, const ChunkSource *source);
+
+/* Returns in which solid light of vertex k is that arrives or leaves below its surface, if `below`, or above it, as
+ * Paths have it (inside.c). */
+int chunk_inside(const Chunk *chunk, const ChunkSource *source, int k, bool below);
 
 /* Finds the threads of a woven material at n vertices; needs texture coordinates (footprint.c). */
 void chunk_find_threads(Chunk *chunk, const ChunkSource *source, int n);

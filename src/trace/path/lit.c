@@ -116,6 +116,16 @@ LOOP(aim_n, (Chunk *restrict chunk, LightGroup group, bool transmits, int n), (c
         aim_each(chunk, group, false, n);
 }
 
+/* Takes from the light sample of vertex k what solid glass absorbs on its way, if the light is inside too. */
+static void absorb_light(Chunk *chunk, const ChunkSource *source, LightGroup group, int k) {
+    const int inside = chunk_inside(chunk, source, k, chunk->vertices.i[group][2][k] < 0.0f);
+    if (!inside || !(chunk->shadow_distance[k] < 0.5f * LIGHT_FAR)) return;
+    const Rgb left = solid_left(source->context->materials[inside - 1].absorption, chunk->shadow_distance[k]);
+    chunk->contribution[0][k] *= left.r;
+    chunk->contribution[1][k] *= left.g;
+    chunk->contribution[2][k] *= left.b;
+}
+
 int chunk_add_light(Chunk *chunk, const ChunkSource *source, LightGroup group, PathRadiance *radiance) {
     const PathContext *context = source->context;
     bool punctual = group == LIGHTS_PUNCTUAL;
@@ -139,6 +149,7 @@ int chunk_add_light(Chunk *chunk, const ChunkSource *source, LightGroup group, P
     for (int k = 0; k < count; k++) {
         int j = chunk->selected[k];
         if (context->shadows && chunk->occluded[k]) continue;
+        if (context->solids) absorb_light(chunk, source, group, j);
         for (int a = 0; a < 3; a++) radiance->rgba[a][chunk->id[j]] += chunk->contribution[a][j];
         if (chunk->slots && source->depth == 0) slot_light_add(chunk->slots, chunk, group, j);
     }

@@ -6,6 +6,7 @@
 #include "shading/kinds/kind.h"
 #include "trace/geometry/geometry.h"
 #include "trace/light/lights.h"
+#include "trace/path/solid.h"
 #include "weft/render.h"
 
 /* A material prepared for all its hits. */
@@ -21,6 +22,9 @@ typedef struct PathMaterial {
     bool transmits;           /* transmits light: samples from both sides count */
     const WeftCloth *cloth;   /* the base is woven of this; NULL: not woven */
     const Measured *measured; /* reflects in place of the stack; NULL: the stack does */
+    bool solid;               /* of solid glass, which was taken out of `stack` */
+    SolidGlass glass;         /* that of `stack`, if solid */
+    Rgb absorption;           /* inside, 1/m, if solid */
     TableRef sheen_e;         /* directional albedo of the sheen; TABLE_NONE without one */
     Stack stack;              /* of `untextured`; points without an own stack share it */
     const StackKind *kind;    /* NULL: shaded one vertex at a time */
@@ -39,6 +43,7 @@ typedef struct PathContext {
     bool lift;            /* rays leave from the smooth surface of a mesh, not from its triangles */
     bool stages;          /* stages are timed */
     bool sky_in_parts;    /* the environment's factors `ambient` and `reflection` are not both 1 */
+    bool solids;          /* a material is of solid glass */
     bool first_hits;      /* first hits are recorded */
     bool places;          /* where they are, and on which meshes, too */
     bool slots;           /* light is divided by the slots that reflect it there */

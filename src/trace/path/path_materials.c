@@ -5,10 +5,11 @@
 #include "scene/record/material_at.h"
 #include "shading/stack/frame.h"
 
-/* Returns true if no input of a coat, a matt base or a base that turns light back is in use that kinds leave out. */
+/* Returns true if no input of glass, a coat, a matt base or a base that turns light back is in use that kinds leave out. */
 static bool is_without_coming(const PathMaterial *prepared) {
     static const InputId coming[] = {INPUT_diffuse_roughness, INPUT_retroreflection, INPUT_coat_ior,
-                                     INPUT_coat_color,        INPUT_coat_darkening,  INPUT_coat_anisotropy};
+                                     INPUT_coat_color,        INPUT_coat_darkening,  INPUT_coat_anisotropy,
+                                     INPUT_transmission};
     const Material plain = material_default();
     bool without = true;
     for (size_t k = 0; k < sizeof coming / sizeof *coming; k++) {
@@ -19,10 +20,26 @@ static bool is_without_coming(const PathMaterial *prepared) {
     return without;
 }
 
+/* Takes solid glass out of the stack. The thickness of a solid is that of its mesh, and light is absorbed along paths. */
+static void prepare_solid(PathMaterial *prepared, const Surface *surface) {
+    prepared->solid = material_is_solid(&prepared->material) && !prepared->cloth && !prepared->measured &&
+                      prepared->stack.glass > 0.0f;
+    if (!prepared->solid) return;
+    prepared->absorption = solid_absorption(surface);
+    prepared->untextured.attenuation_distance = 0.0f;
+    Surface clear = *surface;
+    clear.attenuation_distance = 0.0f;
+    stack_make(&prepared->stack, &clear, &prepared->choices, prepared->sheen_e);
+    prepared->glass = solid_take(&prepared->stack, &clear);
+}
+
 static void prepare(const WeftScene *scene, const Material *material, TableRef sheen_e, PathMaterial *prepared) {
     prepared->material = *material;
     prepared->material.inputs[INPUT_occlusion].texture = 0; /* paths trace it */
     prepared->material.inputs[INPUT_opacity].texture = 0;   /* a ray that hits has decided it */
+    prepared->material.inputs[INPUT_thickness].texture = 0; /* that of the mesh counts */
+    prepared->material.inputs[INPUT_attenuation_distance].texture = 0;
+    prepared->material.inputs[INPUT_attenuation_color].texture = 0;
     prepared->untextured = material_plain(material);
     prepared->choices = material_choices(material);
     for (int input = 0; input < INPUT_COUNT; input++) {
@@ -36,12 +53,13 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
     prepared->sheen_e = sheen_e;
     Surface surface = frame_surface(prepared->untextured);
     stack_make(&prepared->stack, &surface, &prepared->choices, prepared->sheen_e);
-    prepared->transmits = prepared->stack.transmission > 0.0f;
+    prepared->transmits = prepared->stack.transmission > 0.0f || prepared->stack.glass > 0.0f;
     prepared->measured = material->measured ? scene->measured[material->measured - 1] : NULL;
     if (prepared->cloth) {
         const Lobe yarn = lobe_default(LOBE_YARN);
         stack_put_base(&prepared->stack, &yarn, rgb_grey(1.0f), rgb_grey(1.0f));
     }
+    prepare_solid(prepared, &surface);
     const bool settles = dust_settles(prepared->untextured);
     const bool usual = !prepared->measured && !settles && is_without_coming(prepared);
     prepared->kind = usual ? stack_kind(&prepared->stack, &prepared->choices) : NULL;
@@ -67,4 +85,10 @@ PathMaterial *path_materials_create(const WeftScene *scene, const SheenTables *t
         if (back >= 0) color(&materials[back]);
     }
     return materials;
+}
+
+bool path_materials_solid(const PathMaterial *materials, int count) {
+    bool any = false;
+    for (int k = 0; k < count; k++) any |= materials[k].solid;
+    return any;
 }

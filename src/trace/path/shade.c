@@ -1,6 +1,7 @@
 /* shade.c - light samples and materials at the vertices of a chunk, and the rays that go on */
 #include "trace/path/slot_light.h"
 
+#include "base/random.h"
 #include "shading/dialect/loop.h"
 #include "shading/stack/frame.h"
 #include "trace/geometry/sampler.h"
@@ -70,14 +71,19 @@ static Rgb f_cos_of_sky(const PathContext *context, const Stack *stack, const St
     return rgb(max(f.r, 0.0f), max(f.g, 0.0f), max(f.b, 0.0f));
 }
 
-/* Returns the stack at a vertex: the material's, or one of its own in chunk->stack. */
+/* Returns the stack at a vertex: the material's, or one of its own in chunk->stack. Of solid glass, chunk->glass becomes
+ * what was taken from it. */
 static const Stack *stack_at(Chunk *chunk, const PathMaterial *material, int k) {
     Surface surface = surface_of_row(&chunk->vertices.surface, (size_t)k);
-    if (!material->textured && !dust_settles(surface)) return &material->stack;
+    if (!material->textured && !dust_settles(surface)) {
+        if (material->solid) chunk->glass = material->glass;
+        return &material->stack;
+    }
     Dir normal = dir(chunk->frame[2][0][k], chunk->frame[2][1][k], chunk->frame[2][2][k]);
     Dir position = dir(chunk->position[0][k], chunk->position[1][k], chunk->position[2][k]);
     surface = dust_accumulate(frame_surface(surface), normal, position);
     stack_make(&chunk->stack, &surface, &material->choices, material->sheen_e);
+    if (material->solid) chunk->glass = solid_take(&chunk->stack, &surface);
     if (material->cloth) {
         const YarnRows *yarn = &chunk->vertices.yarn;
         const Lobe lobe = yarn_of_row(yarn, (size_t)k);
@@ -86,58 +92,82 @@ static const Stack *stack_at(Chunk *chunk, const PathMaterial *material, int k) 
     return &chunk->stack;
 }
 
-/* Evaluates f cos and pdf of the stack, or of a measurement in its place. Half of its samples are the stack's. */
-static void vertex_eval(const Measured *measured, const Stack *stack, const StackView *view, const Dir *wi,
-                        uint32_t seed, StackValue *value) {
+/* What reflects and transmits at a vertex. */
+typedef struct Shaded {
+    const Stack *stack;
+    const StackView *view;
+    const Measured *measured; /* in place of the stack; NULL: the stack */
+    const SolidView *solid;   /* glass beside the stack; NULL: none */
+} Shaded;
+
+/* Evaluates f cos and pdf of the stack and the glass, or of a measurement in their place. Half of its samples are the
+ * stack's. */
+static void vertex_eval(const Shaded *at, const Dir *wi, uint32_t seed, StackValue *value) {
     float f[3];
-    stack_eval(stack, view, wi, seed, value);
-    if (!measured) return;
-    measured_at(measured, view->o, *wi, f);
+    stack_eval(at->stack, at->view, wi, seed, value);
+    if (at->solid) {
+        const StackValue glass = solid_glass(at->solid, *wi);
+        value->f_cos = rgb_add(value->f_cos, glass.f_cos);
+        value->pdf = value->pdf * (1.0f - at->solid->p) + glass.pdf;
+    }
+    if (!at->measured) return;
+    measured_at(at->measured, at->view->o, *wi, f);
     value->f_cos = rgb_scale(rgb(f[0], f[1], f[2]), max(wi->z, 0.0f));
-    value->pdf = wi->z > 0.0f ? 0.5f * (value->pdf + measured_pdf(measured, view->o, *wi)) : 0.0f;
+    value->pdf = wi->z > 0.0f ? 0.5f * (value->pdf + measured_pdf(at->measured, at->view->o, *wi)) : 0.0f;
 }
 
-/* Samples wi by the stack, or for a measurement by either with equal probability. */
-static void vertex_sample(const Measured *measured, const Stack *stack, const StackView *view, float u, float v,
-                          Dir *wi) {
+/* Samples wi by the stack and the glass, or for a measurement by it or the stack with equal probability. */
+static void vertex_sample(const Shaded *at, float u, float v, uint32_t seed, Dir *wi) {
+    const Measured *measured = at->measured;
     if (measured && u < 0.5f)
-        *wi = measured_sample(measured, view->o, 2.0f * u, v);
+        *wi = measured_sample(measured, at->view->o, 2.0f * u, v);
+    else if (at->solid)
+        solid_sample(at->solid, u, v, unit_float(hash32(seed + 0x9e3779b9u)), wi);
     else
-        stack_sample(stack, view, measured ? 2.0f * u - 1.0f : u, v, wi);
+        stack_sample(at->stack, at->view, measured ? 2.0f * u - 1.0f : u, v, wi);
 }
 
-/* Returns f cos for light of the environment. A measurement as a whole counts as reflection. */
-static Rgb vertex_sky(const PathContext *context, const Measured *measured, const Stack *stack, const StackView *view,
-                      Dir wi, uint32_t seed, Rgb f_cos) {
-    return measured ? rgb_scale(f_cos, context->scene->environment.reflection)
-                    : f_cos_of_sky(context, stack, view, wi, seed, f_cos);
+/* Returns f cos for light of the environment. A measurement as a whole and solid glass count as reflection. */
+static Rgb vertex_sky(const PathContext *context, const Shaded *at, Dir wi, uint32_t seed, Rgb f_cos) {
+    const float reflection = context->scene->environment.reflection;
+    const Rgb glass = at->solid ? solid_glass(at->solid, wi).f_cos : rgb_grey(0.0f);
+    if (at->measured) return rgb_scale(f_cos, reflection);
+    const Rgb rest = f_cos_of_sky(context, at->stack, at->view, wi, seed, rgb_add(f_cos, rgb_scale(glass, -1.0f)));
+    return rgb_add(rest, rgb_scale(glass, reflection));
 }
 
 /* Shades one vertex, whatever its stack is: fills f cos and pdf of all directions, and samples wi. */
 static void shade_vertex(Chunk *chunk, const ChunkSource *source, const PathMaterial *material, int k) {
     const PathContext *context = source->context;
-    const Measured *measured = material->measured;
     KindVertices *vertices = &chunk->vertices;
+    const bool inside = material->solid && chunk->side[k] < 0.0f;
     const Stack *stack = stack_at(chunk, material, k);
     uint32_t seed = hash32(chunk->key[k]);
     Dir o = dir(vertices->o[0][k], vertices->o[1][k], vertices->o[2][k]), wi;
     StackValue value;
+    SolidView solid = {0};
+    if (inside) {
+        if (stack != &chunk->stack) chunk->stack = *stack;
+        solid_hide_highlight(&chunk->stack);
+        stack = &chunk->stack;
+    }
     stack_see(stack, &o, &chunk->view);
+    if (material->solid) solid = solid_see(&chunk->glass, stack, &chunk->view, inside);
+    const Shaded at = {stack, &chunk->view, material->measured, material->solid ? &solid : NULL};
     for (int g = 0; g < LIGHT_GROUPS; g++) {
         if (!lights_has_group(context->lights, (LightGroup)g)) continue;
         wi = dir(vertices->i[g][0][k], vertices->i[g][1][k], vertices->i[g][2][k]);
-        vertex_eval(measured, stack, &chunk->view, &wi, seed, &value);
-        if (g == LIGHTS_SKY && context->sky_in_parts)
-            value.f_cos = vertex_sky(context, measured, stack, &chunk->view, wi, seed, value.f_cos);
+        vertex_eval(&at, &wi, seed, &value);
+        if (g == LIGHTS_SKY && context->sky_in_parts) value.f_cos = vertex_sky(context, &at, wi, seed, value.f_cos);
         put_value(chunk, g, k, &value.f_cos, value.pdf);
     }
     seed = hash32(chunk->key[k] ^ 0x68e31da4u);
-    vertex_sample(measured, stack, &chunk->view, vertices->u[k], vertices->v[k], &wi);
-    vertex_eval(measured, stack, &chunk->view, &wi, seed, &value);
+    vertex_sample(&at, vertices->u[k], vertices->v[k], seed, &wi);
+    vertex_eval(&at, &wi, seed, &value);
     vertices->i[KIND_DRAWN][0][k] = wi.x, vertices->i[KIND_DRAWN][1][k] = wi.y, vertices->i[KIND_DRAWN][2][k] = wi.z;
     put_value(chunk, KIND_DRAWN, k, &value.f_cos, value.pdf);
     if (!context->sky_in_parts) return;
-    Rgb f = vertex_sky(context, measured, stack, &chunk->view, wi, seed, value.f_cos);
+    Rgb f = vertex_sky(context, &at, wi, seed, value.f_cos);
     chunk->f_cos_sky[0][k] = f.r, chunk->f_cos_sky[1][k] = f.g, chunk->f_cos_sky[2][k] = f.b;
 }
 
@@ -281,6 +311,14 @@ static void append_normals(const Chunk *chunk, const PathMaterial *material, int
         for (int k = 0; k < n; k++) to->horizon_normal[a][at + k] = horizon[a][chunk->selected[k]];
 }
 
+/* Writes in which solids the rays are. */
+static void append_inside(const Chunk *chunk, const ChunkSource *source, int at, int n, Paths *to) {
+    for (int k = 0; k < n; k++) {
+        const int j = chunk->selected[k];
+        to->inside[at + k] = chunk_inside(chunk, source, j, chunk->vertices.i[KIND_DRAWN][2][j] < 0.0f);
+    }
+}
+
 /* Writes the throughputs for light of the environment. */
 static void append_sky(const Chunk *chunk, int at, int n, Paths *to) {
     for (int a = 0; a < 3; a++)
@@ -297,6 +335,7 @@ int chunk_continue(Chunk *chunk, const ChunkSource *source, Paths *paths, int co
     int added = select_continuing(chunk, source->n);
     append(chunk, material->transmits, count, added, paths);
     if (context->sky_in_parts) append_sky(chunk, count, added, paths);
+    if (context->solids) append_inside(chunk, source, count, added, paths);
     if (lights_has_group(context->lights, LIGHTS_EMITTERS)) append_normals(chunk, material, count, added, paths);
     return count + added;
 }

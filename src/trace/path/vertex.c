@@ -141,6 +141,7 @@ void chunk_place(Chunk *chunk, const ChunkSource *source) {
     chunk->horizon_normal = source->context->lift ? chunk->visible : chunk->geometric;
     place_n(chunk, share, n);
     if (source->context->materials[source->material].transmits) place_behind_n(chunk, share, n);
+    if (source->context->solids) chunk_absorb(chunk, source);
     stage_end(chunk->clock, STAGE_PLACE);
     chunk_read_inputs(chunk, source, n);
     stage_end(chunk->clock, STAGE_INPUTS);

@@ -21,6 +21,7 @@ static const struct {
 } groups[] = {{"Base", {NULL}, true},
               {"Sheen", {"sheen", "nap", "fuzz", NULL}, true},
               {"Coat", {"clearcoat", "coat", NULL}, false},
+              {"Glass", {"transmission", "thickness", "attenuation", NULL}, false},
               {"Dust", {"dust", NULL}, false},
               {"Emission", {"emission", NULL}, false}};
 enum { GROUPS = sizeof groups / sizeof *groups, SHEEN = 1, MODELS_BEFORE = 2 };

@@ -1,0 +1,133 @@
+#include "trace/path/solid.h"
+
+#include "shading/stack/frame.h"
+
+static const float LEAST_BENT = 1.001f; /* an ior of 1 leaves no half vector */
+
+SolidGlass solid_take(Stack *stack, const Surface *surface) {
+    const Proxy facets = lobe_proxy(&stack->specular.lobe);
+    const SolidGlass glass = {.share = stack->glass,
+                              .tint = stack->glass_tint,
+                              .ior = max(compose_ior(surface), LEAST_BENT),
+                              .ax = max(facets.ax, 0.001f),
+                              .ay = max(facets.ay, 0.001f),
+                              .f0 = stack->specular.f0,
+                              .f90 = stack->specular.f90,
+                              .interface_f0 = stack->interface_f0,
+                              .interface_f90 = stack->interface_f90};
+    Slot *diffuse = &stack->diffuse;
+    const float through = rgb_mean(stack->transmitted), clear = stack_glass_facing(stack);
+    const bool dark = !(rgb_max3(diffuse->f0) + rgb_max3(diffuse->f90) + through > 0.0f);
+    diffuse->normal = dark ? 0.0f : max(diffuse->normal - clear, 1e-30f);
+    stack->transmitted_p = min(stack->transmitted_p * (diffuse->normal + clear) / max(diffuse->normal, 1e-30f), 1.0f);
+    stack->glass = stack->glass_p = 0.0f;
+    stack->glass_tint = rgb_grey(0.0f);
+    return glass;
+}
+
+void solid_hide_highlight(Stack *stack) { stack->specular.normal = 0.0f; }
+
+/* Returns the cosine of light to a facet on the side of air, where it is c on the side of wo; 0 where all is reflected. */
+static float cosine_outside(const SolidView *view, float c) {
+    const float ior = view->glass->ior;
+    return view->inside ? sqrt(max(1.0f - ior * ior * (1.0f - c * c), 0.0f)) : c;
+}
+
+/* Returns F of the interface where light meets a facet at the cosine c on the side of wo. */
+static Rgb interface_at(const SolidView *view, float c) {
+    const SolidGlass *glass = view->glass;
+    const float outside = cosine_outside(view, c);
+    if (view->inside && !(outside > 0.0f)) return rgb_grey(1.0f);
+    return rgb_mix(glass->interface_f0, rgb_grey(glass->interface_f90), schlick_s(outside));
+}
+
+/* Returns the probability that a facet reflects a sample: 0 outside, where the stack has the reflection. */
+static float reflects_p(const SolidView *view, float c) {
+    if (!view->inside) return 0.0f;
+    const float f = min(rgb_mean(interface_at(view, c)), 1.0f), through = (1.0f - f) * rgb_mean(view->glass->tint);
+    return f / max(f + through, 1e-12f);
+}
+
+/* Returns the part of samples for the glass: about the part of all light that it sends on. */
+static float sampled_p(const SolidView *view) {
+    const Stack *stack = view->stack;
+    const bool others =
+        HAS_DIFFUSE(stack) || HAS_SPECULAR(stack) || HAS_SHEEN(stack) || HAS_COAT(stack) || HAS_DUST(stack);
+    const float facing = view->inside ? 0.0f : schlick_s(view->view->o.z);
+    const Rgb f = rgb_mix(view->glass->interface_f0, rgb_grey(view->glass->interface_f90), facing);
+    const float part = view->inside ? 1.0f : rgb_mean(rgb_mul(view->glass->tint, stack_one_minus(f)));
+    return others ? clamp(part * view->view->scale.diffuse * rgb_mean(view->view->base_scale), 0.1f, 0.9f) : 1.0f;
+}
+
+SolidView solid_see(const SolidGlass *glass, const Stack *stack, const StackView *view, bool inside) {
+    SolidView seen = {.glass = glass,
+                      .stack = stack,
+                      .view = view,
+                      .inside = inside,
+                      .n = inside ? 1.0f / glass->ior : glass->ior,
+                      .facets = ggx_stretched(glass->ax, glass->ay)};
+    ggx_view(&seen.facets, view->o, &seen.facets_view);
+    seen.p = sampled_p(&seen);
+    return seen;
+}
+
+/* Returns f cos and pdf of light that the surface reflects inside. */
+static StackValue reflected(const SolidView *view, const Angles *a) {
+    const SolidGlass *glass = view->glass;
+    const LobeValue lobe = ggx_value(&view->facets, &view->facets_view, *a);
+    const Rgb opaque = rgb_mix(glass->f0, glass->f90, schlick_s(a->d));
+    const Rgb f =
+        rgb_mul(rgb_mix(opaque, interface_at(view, a->d), glass->share), stack_over_glass(view->stack, view->view, a));
+    return (StackValue){rgb_scale(f, lobe.f * a->i.z), view->p * reflects_p(view, a->d) * lobe.pdf};
+}
+
+/* Returns f cos and pdf of light from i beyond the surface. a: of the mirror image of i. */
+static StackValue refracted(const SolidView *view, Dir i, const Angles *a) {
+    const float n = view->n, ax = view->glass->ax, ay = view->glass->ay;
+    const Dir o = view->view->o;
+    Dir h = dir_normal_or(dir(-o.x - n * i.x, -o.y - n * i.y, -o.z - n * i.z), dir(0.0f, 0.0f, 1.0f));
+    if (h.z < 0.0f) h = dir_scale(h, -1.0f);
+    const float c = dir_dot(o, h), beyond = dir_dot(i, h), sum = c + n * beyond;
+    if (!(c > 0.0f && beyond < 0.0f && sum * sum > 0.0f)) return (StackValue){0};
+    const float below = -i.z;
+    const float g_o = 2.0f * o.z / (o.z + ggx_length(ax, ay, o));
+    const float g_i = 2.0f * below / (below + ggx_length(ax, ay, dir(i.x, i.y, below)));
+    const float pdf = g_o * ggx_d(ax, ay, h) * c / o.z * (n * n * -beyond / (sum * sum));
+    const Rgb colour = rgb_mul(view->glass->tint, stack_one_minus(interface_at(view, c)));
+    const Rgb f = rgb_mul(colour, stack_over_glass(view->stack, view->view, a));
+    return (StackValue){rgb_scale(f, pdf * g_i), view->p * (1.0f - reflects_p(view, c)) * pdf};
+}
+
+StackValue solid_glass(const SolidView *view, Dir i) {
+    if (!(view->view->o.z > 0.0f) || !(abs(i.z) > 0.0f)) return (StackValue){0};
+    const Angles a = angles_between(view->view->o, dir(i.x, i.y, abs(i.z)));
+    if (i.z < 0.0f) return refracted(view, i, &a);
+    return view->inside ? reflected(view, &a) : (StackValue){0};
+}
+
+void solid_sample(const SolidView *view, float u, float v, float third, Dir *i) {
+    const Dir o = view->view->o;
+    if (!stack_takes(view->p, &u)) {
+        stack_sample(view->stack, view->view, u, v, i);
+        if (!HAS_TRANSMITTED(view->stack)) i->z = max(i->z, 0.0f); /* what is below is no sample */
+        return;
+    }
+    const Dir h = ggx_sample_h(view->glass->ax, view->glass->ay, o, u, v);
+    const float c = dir_dot(o, h), n = view->n, k = 1.0f - (1.0f - c * c) / (n * n);
+    *i = dir(1.0f, 0.0f, 0.0f);
+    if (third < reflects_p(view, c)) {
+        const Dir mirror = dir_mirror(o, h);
+        if (mirror.z > 0.0f) *i = mirror;
+    } else if (k > 0.0f) {
+        const float along = c / n - sqrt(k);
+        const Dir bent = dir(along * h.x - o.x / n, along * h.y - o.y / n, along * h.z - o.z / n);
+        if (bent.z < 0.0f) *i = dir_normal_or(bent, *i);
+    }
+}
+
+Rgb solid_absorption(const Surface *surface) {
+    if (!(surface->attenuation_distance > 0.0f)) return rgb_grey(0.0f);
+    const Rgb c = surface->attenuation_color;
+    const float per = -1.0f / max(surface->attenuation_distance, 1e-6f);
+    return rgb(logf(max(c.r, 1e-6f)) * per, logf(max(c.g, 1e-6f)) * per, logf(max(c.b, 1e-6f)) * per);
+}

@@ -1,0 +1,64 @@
+/* solid.h - solid glass at the vertices of paths: light that a rough surface bends, and what is left of it inside
+ *
+ *   f_t cos_i = tint (1 - F) D G1(wo) G1(wi) (wo . h) n^2 |wi . h| / (cos_o (wo . h + n wi . h)^2)
+ *   h = -(wo + n wi) normalised,  n: index of refraction beyond the surface over that on the side of wo
+ *   T = c^(x / d) after x metres inside
+ *
+ *   Bruce Walter, Stephen R. Marschner, Hongsong Li, Kenneth E. Torrance, "Microfacet Models for Refraction through Rough
+ * Surfaces", EGSR 2007, Equations 16, 17 and 21; D, G1 of GGX. F is Schlick's between the two colours of the interface, at
+ * the cosine on the side of air; from within all is reflected beyond the critical angle. The light that is reflected
+ * outside is the stack's own, and the layers of the stack dim what goes through on either side.
+ *   Departures: f_t is that of energy, without the factor n^2 on radiance inside; it cancels unless a light or the camera
+ * is inside. What scatters more than once between facets is lost, as outside. A path knows one solid at a time: what is
+ * inside of two is inside of the one entered last. */
+#pragma once
+
+#include "scene/record/material.h"
+#include "shading/material/material_stack.h"
+
+/* Glass as it was taken from a stack. */
+typedef struct SolidGlass {
+    float share; /* of the light below the interface */
+    Rgb tint;    /* colour of what goes through, times the share */
+    float ior;
+    float ax, ay;     /* of the facets */
+    Rgb f0, f90;      /* colours of the highlight */
+    Rgb interface_f0; /* as in the stack */
+    float interface_f90;
+} SolidGlass;
+
+/* A stack whose glass was taken, and the glass, seen from wo. */
+typedef struct SolidView {
+    const SolidGlass *glass;
+    const Stack *stack;
+    const StackView *view;
+    bool inside; /* wo is inside of the solid */
+    float n;     /* as above */
+    GgxPrepared facets;
+    GgxView facets_view;
+    float p; /* the share of the samples that the glass draws */
+} SolidView;
+
+/* Takes the glass out of a stack, which then only reflects. surface: that of the stack. */
+SolidGlass solid_take(Stack *stack, const Surface *surface);
+
+/* Takes the highlight out of a stack that is seen from inside: that of the glass is another one there. */
+void solid_hide_highlight(Stack *stack);
+
+/* view: of the stack from wo, which solid_hide_highlight was called for if `inside`. The pointers are borrowed. */
+SolidView solid_see(const SolidGlass *glass, const Stack *stack, const StackView *view, bool inside);
+
+/* Returns f cos and pdf of the glass alone, the pdf as part of that of all. */
+StackValue solid_glass(const SolidView *view, Dir i);
+
+/* Computes wi for (u, v) in [0, 1)^2 and a third number, of the glass or the stack. If there is no sample, wi is at the
+ * horizon. */
+void solid_sample(const SolidView *view, float u, float v, float third, Dir *i);
+
+/* Returns the absorption coefficient of a material's inside, 1/m. */
+Rgb solid_absorption(const Surface *surface);
+
+/* Returns what is left of light after x metres of that absorption. */
+static inline Rgb solid_left(Rgb absorption, float x) {
+    return (Rgb){expf(-absorption.r * x), expf(-absorption.g * x), expf(-absorption.b * x)};
+}

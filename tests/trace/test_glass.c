@@ -1,0 +1,219 @@
+/* Solid and thin glass in the path tracer: that light is bent by Snell's law, absorbed by Beer's, and none made.
+ *
+ * Labels: unsanitized */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "base/random.h"
+#include "scene/record/material_at.h"
+#include "scenes.h"
+#include "trace/path/solid.h"
+#include "weft/weft.h"
+
+/* A white, smooth dielectric that lets all light through; solid of a thickness above 0. */
+static Material *glass(WeftScene *scene, float roughness, float thickness) {
+    Material *m = test_material(scene, 1.0f);
+    m->double_sided = false;
+    m->inputs[INPUT_specular].value[0] = 1.0f;
+    m->inputs[INPUT_ior].value[0] = 1.5f;
+    m->inputs[INPUT_roughness].value[0] = roughness;
+    m->inputs[INPUT_transmission].value[0] = 1.0f;
+    m->inputs[INPUT_thickness].value[0] = thickness;
+    return m;
+}
+
+/* A vertex of solid glass seen from wo. */
+typedef struct Seen {
+    Stack stack;
+    StackView view;
+    SolidGlass glass;
+    SolidView solid;
+} Seen;
+
+static void see(Seen *seen, float roughness, float ior, bool inside, Dir o) {
+    WeftScene *scene = test_scene();
+    Material *m = glass(scene, roughness, 1.0f);
+    const Choices choices = choices_unmade();
+    m->inputs[INPUT_ior].value[0] = ior;
+    const Surface s = material_plain(m);
+    stack_make(&seen->stack, &s, &choices, (TableRef){.kind = TABLE_NONE});
+    seen->glass = solid_take(&seen->stack, &s);
+    if (inside) solid_hide_highlight(&seen->stack);
+    stack_see(&seen->stack, &o, &seen->view);
+    seen->solid = solid_see(&seen->glass, &seen->stack, &seen->view, inside);
+    weft_scene_free(scene);
+}
+
+static StackValue value_of(const Seen *seen, Dir i) {
+    StackValue v;
+    stack_eval(&seen->stack, &seen->view, &i, 1, &v);
+    const StackValue g = solid_glass(&seen->solid, i);
+    v.f_cos.g += g.f_cos.g;
+    v.pdf = v.pdf * (1.0f - seen->solid.p) + g.pdf;
+    return v;
+}
+
+static Dir at(float cosine) {
+    return dir(0.8f * sqrtf(1.0f - cosine * cosine), 0.6f * sqrtf(1.0f - cosine * cosine), cosine);
+}
+
+static void smooth_glass_bends_light_by_snell(void **state) {
+    (void)state;
+    static const float iors[] = {1.1f, 1.5f, 2.4f};
+    double worst = 0.0;
+    for (int n = 0; n < 60; n++) {
+        Seen seen;
+        const bool inside = n % 2;
+        const float ior = iors[n / 2 % 3], cosine = 0.1f + 0.015f * (float)n, index = inside ? 1.0f / ior : ior;
+        const Dir o = at(cosine);
+        see(&seen, 0.0f, ior, inside, o);
+        const float sine = sqrtf(1.0f - cosine * cosine) / index;
+        for (int k = 0; k < 20; k++) {
+            Dir i;
+            const float u = ((float)k + 0.5f) / 20.0f;
+            solid_sample(&seen.solid, u, 0.37f, u, &i);
+            if (sine >= 1.0f) assert_true(i.z > 0.0f); /* all is reflected */
+            if (!(i.z < 0.0f)) continue;
+            worst = fmax(worst, fabs((double)hypotf(i.x, i.y) - (double)sine));
+            assert_true(o.x * i.x + o.y * i.y < 0.0f);
+        }
+    }
+    print_message("sines are off by %.1e at most\n", worst);
+    assert_true(worst < 0.02);
+}
+
+/* R + T by samples and by an even sum over the sphere; from either side, never above 1, and 1 where facets lose nothing. */
+static void rough_glass_sends_on_what_it_should(void **state) {
+    (void)state;
+    enum { SAMPLES = 100000, EVEN = 400000 };
+    static const float iors[] = {1.05f, 1.33f, 1.5f, 2.4f}, roughnesses[] = {0.1f, 0.3f, 0.6f, 1.0f};
+    double most = 0.0, least[4] = {1.0, 1.0, 1.0, 1.0};
+    uint32_t random = 5;
+#define NEXT unit_float(hash32(++random * 0x9e3779b9u))
+    for (int n = 0; n < 48; n++) {
+        Seen seen;
+        const float roughness = roughnesses[n % 4], cosine = 0.1f + 0.28f * (float)(n / 16) + 0.04f * (float)(n % 8);
+        double drawn = 0.0, square = 0.0, even = 0.0, spread = 0.0;
+        see(&seen, roughness, iors[n / 4 % 4], n % 3 == 0, at(cosine));
+        for (int k = 0; k < SAMPLES; k++) {
+            Dir i;
+            const float u = NEXT, v = NEXT, third = NEXT;
+            solid_sample(&seen.solid, u, v, third, &i);
+            const StackValue value = value_of(&seen, i);
+            const double x = value.pdf > 0.0f ? (double)(value.f_cos.g / value.pdf) : 0.0;
+            drawn += x / SAMPLES;
+            square += x * x / SAMPLES;
+        }
+        const double error = (sqrt)(fmax(square - drawn * drawn, 0.0) / SAMPLES);
+        most = fmax(most, drawn - 4.0 * error);
+        if (cosine > 0.3f) least[n % 4] = fmin(least[n % 4], drawn);
+        if (roughness < 0.5f) continue;
+        for (int k = 0; k < EVEN; k++) {
+            const float z = 2.0f * NEXT - 1.0f, phi = 6.2831853f * NEXT, r = sqrtf(1.0f - z * z);
+            const double x =
+                4.0 * (double)PI_FLOAT * (double)value_of(&seen, dir(r * cosf(phi), r * sinf(phi), z)).f_cos.g;
+            even += x / EVEN;
+            spread += x * x / EVEN;
+        }
+        const double bound = 5.0 * (error + (sqrt)(fmax(spread - even * even, 0.0) / EVEN)) + 1e-3;
+        if (!(fabs(drawn - even) < bound))
+            fail_msg("ior %g, roughness %g, cosine %g: %.4f drawn, %.4f even", (double)iors[n / 4 % 4],
+                     (double)roughness, (double)cosine, drawn, even);
+    }
+#undef NEXT
+    print_message("R + T is at most %.4f; at least %.4f, %.3f, %.3f, %.3f at roughness .1, .3, .6, 1\n", most, least[0],
+                  least[1], least[2], least[3]);
+    assert_true(most < 1.0005 && least[0] > 0.998 && least[1] > 0.96);
+}
+
+static double mean_of(const WeftScene *scene, WeftRenderDesc desc, int spp) {
+    WeftImage image = test_render(scene, desc, spp);
+    double sum = 0.0;
+    const int count = image.width * image.height;
+    for (int k = 0; k < count; k++) sum += (double)((const float *)image.pixels)[4 * k] / count;
+    weft_image_free(&image);
+    return sum;
+}
+
+/* White glass under radiance 1, solid and thin, bare and under fuzz. */
+static void white_glass_vanishes(void **state) {
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        const bool solid = k < 3, fuzzy = k % 3 == 1, rough = k % 3 == 2;
+        WeftScene *scene = test_scene();
+        test_environment(scene, 1.0f);
+        Material *m = glass(scene, rough ? solid ? 0.3f : 0.7f : solid ? 0.03f : 0.1f, solid ? 1.0f : 0.0f);
+        m->double_sided = !solid;
+        m->inputs[INPUT_fuzz].value[0] = fuzzy ? 1.0f : 0.0f;
+        test_sphere(scene, vec3(0, 0, 0), 1.0f);
+        scene_bounds(scene);
+        const WeftRenderDesc desc = {
+            .width = 32, .height = 32, .camera = "0,0,3;0,0,0;40", .max_depth = 400, .sampling = WEFT_SAMPLING_LOBE};
+        const double mean = mean_of(scene, desc, 256);
+        printf("  white glass, %s%s%s: 1 %+.1e\n", solid ? "solid" : "thin", fuzzy ? ", fuzz" : "",
+               rough ? ", rough" : "", mean - 1.0);
+        if (solid && rough) /* what scatters between facets is lost at each turn */
+            assert_true(mean < 1.0 + 1e-4 && mean > 0.95);
+        else
+            assert_true(fabs(mean - 1.0) < 1e-3);
+        weft_scene_free(scene);
+    }
+}
+
+/* A cube that reflects nothing, a metre thick, of which .5 is left after half a metre. */
+static void inside_light_is_absorbed_by_beer(void **state) {
+    (void)state;
+    WeftScene *scene = test_scene();
+    test_environment(scene, 1.0f);
+    Material *m = glass(scene, 0.0f, 1.0f);
+    m->inputs[INPUT_specular].value[0] = 0.0f;
+    test_color(m, INPUT_attenuation_color, 0.5f);
+    m->inputs[INPUT_attenuation_distance].value[0] = 0.5f;
+    test_quad(scene, vec3(-9, -9, 0.5f), vec3(18, 0, 0), vec3(0, 18, 0));
+    test_quad(scene, vec3(-9, -9, -0.5f), vec3(0, 18, 0), vec3(18, 0, 0));
+    scene_bounds(scene);
+    const WeftRenderDesc desc = {.width = 8, .height = 8, .camera = "0,0,4;0,0,0;1"};
+    const double mean = mean_of(scene, desc, 256);
+    print_message("of white light %.5f is left after a metre\n", mean);
+    assert_true(fabs(mean - 0.25) < 5e-4);
+    weft_scene_free(scene);
+}
+
+/* A matt ball in a ball of glass: it is lit through the glass, and looks larger. */
+static void what_is_inside_is_seen_larger(void **state) {
+    (void)state;
+    double seen[2];
+    for (int k = 0; k < 2; k++) {
+        WeftScene *scene = test_scene();
+        test_environment(scene, 1.0f);
+        test_material(scene, 0.0f);
+        test_sphere(scene, vec3(0, 0, 0), 0.3f);
+        if (k) {
+            Material *m = glass(scene, 0.0f, 1.0f);
+            m->inputs[INPUT_specular].value[0] = 0.0f;
+            test_sphere(scene, vec3(0, 0, 0), 1.0f);
+        }
+        scene_bounds(scene);
+        const WeftRenderDesc desc = {.width = 48, .height = 48, .camera = "0,0,20;0,0,0;6"};
+        seen[k] = 1.0 - mean_of(scene, desc, 32);
+        weft_scene_free(scene);
+    }
+    print_message("the dark part is %.3f of the picture, in glass %.3f: %.3f times\n", seen[0], seen[1],
+                  seen[1] / seen[0]);
+    assert_true(fabs(seen[1] / seen[0] - 2.25) < 0.1); /* ior squared, from afar */
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(smooth_glass_bends_light_by_snell),
+        cmocka_unit_test(rough_glass_sends_on_what_it_should),
+        cmocka_unit_test(white_glass_vanishes),
+        cmocka_unit_test(inside_light_is_absorbed_by_beer),
+        cmocka_unit_test(what_is_inside_is_seen_larger),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
