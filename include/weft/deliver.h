@@ -12,6 +12,7 @@ extern "C" {
 typedef struct WeftTarget {
     const char *name, *help; /* such as "three", and a line on it; live as long as the program */
     const char *profile;     /* of weft_profile_name, which shades as the program does */
+    const char *fit; /* the one that baked cloth is fitted by: it has stretched highlights where the program does */
 } WeftTarget;
 
 /* Fills in the target at index, and returns 1; returns 0 past the end. */

@@ -244,6 +244,32 @@ static void unlit_material_keeps_its_color(void **state) {
     folder_clear("flat");
 }
 
+static double far_color(const json_t *summary, const char *target) {
+    return number(json_object_get(json_object_get(target_of(summary, target), "errors"), "far"), "mean_color");
+}
+
+/* Silk is fitted for each viewer by itself: one whose highlights are round, or that has no rim, is no farther off. */
+static void cloth_is_fitted_for_each_target(void **state) {
+    (void)state;
+    delivered(LIST("deliver", "preset:woven-charmeuse", "--to", "three,filament,core,u3m", "-o", "silk", "--name", "s",
+                   "--size", "256", "--width", "64", "--spp", "16"));
+    json_t *summary = json_of("silk/s.json");
+    static const char *const names[] = {"three", "filament", "core"};
+    for (int k = 0; k < 3; k++)
+        if (!(far_color(summary, names[k]) < 0.12)) fail_msg("%s: %g", names[k], far_color(summary, names[k]));
+    /* the archive of the textile industry is read again as what it says */
+    const json_t *u3m = target_of(summary, "u3m"), *files = json_object_get(u3m, "files");
+    assert_string_equal(json_string_value(json_object_get(files, "u3m")), "s-u3m.u3ma");
+    assert_true(json_array_size(json_object_get(u3m, "lost")) > 0 && far_color(summary, "u3m") < 0.3);
+    const char *line = json_string_value(json_array_get(json_object_get(u3m, "lost"), 0));
+    if (strstr(line, "silk/") || strstr(line, ".u3ma")) fail_msg("%s", line);
+    WeftMaterial material;
+    WeftError error;
+    if (weft_material_read("silk/s-u3m.u3ma", &material, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    json_decref(summary);
+    folder_clear("silk");
+}
+
 /* A scene that was saved with its threads has them as textures. */
 static void woven_asset_is_baked(void **state) {
     (void)state;
@@ -266,7 +292,7 @@ static void senseless_delivery_is_refused(void **state) {
     assert_complaint(NULL, LIST("deliver", "asset.gltf", "--to", "three", "-o", "no"), WEFT_INPUT,
                      "weft match ASSET --workflow metallic");
     assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "thre", "-o", "no"), WEFT_USAGE,
-                     "khronos, three, babylon, filament, blender, core; did you mean three?");
+                     "khronos, three, babylon, filament, blender, core, u3m; did you mean three?");
     assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three,,core", "-o", "no"), WEFT_USAGE,
                      "is not a target");
     assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three,three", "-o", "no"), WEFT_USAGE,
@@ -287,6 +313,10 @@ static void senseless_delivery_is_refused(void **state) {
                      "asset.gltf");
     assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three", "-o", "missing/below"), WEFT_RESOURCES,
                      "missing/below");
+    asset_make("}},{\"name\":\"second\",\"extensions\":{");
+    assert_complaint(NULL, LIST("deliver", "asset.gltf", "--to", "u3m", "-o", "no", "--width", "32", "--spp", "1"),
+                     WEFT_USAGE, "a U3M holds one material");
+    assert_int_equal(files_in("no"), -1);
     /* a file in the place of one of the results is not lost */
     assert_int_equal(mkdir("taken", 0777), 0);
     assert_int_equal(mkdir("taken/v-three.png", 0777), 0);
@@ -322,13 +352,10 @@ static void interrupted_delivery_leaves_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draft_is_delivered_to_every_target),
-        cmocka_unit_test(material_is_delivered_near_the_truth),
-        cmocka_unit_test(asset_keeps_all_that_the_target_reads),
-        cmocka_unit_test(unlit_material_keeps_its_color),
-        cmocka_unit_test(woven_asset_is_baked),
-        cmocka_unit_test(senseless_delivery_is_refused),
-        cmocka_unit_test(interrupted_delivery_leaves_nothing),
+        cmocka_unit_test(draft_is_delivered_to_every_target),    cmocka_unit_test(material_is_delivered_near_the_truth),
+        cmocka_unit_test(asset_keeps_all_that_the_target_reads), cmocka_unit_test(unlit_material_keeps_its_color),
+        cmocka_unit_test(cloth_is_fitted_for_each_target),       cmocka_unit_test(woven_asset_is_baked),
+        cmocka_unit_test(senseless_delivery_is_refused),         cmocka_unit_test(interrupted_delivery_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

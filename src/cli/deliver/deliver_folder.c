@@ -31,9 +31,8 @@ void folder_path(const Delivery *delivery, const char *target, const char *suffi
 static int each_file(Delivery *delivery, int (*use)(const Delivery *delivery, const char *target, const char *suffix)) {
     int result = 0;
     for (int k = 0; k < delivery->count && result == 0; k++) {
-        WeftTarget target;
-        weft_target_info(delivery->files[k].target, &target);
-        result = use(delivery, target.name, ".glb");
+        const WeftTarget target = file_target(&delivery->files[k]);
+        result = use(delivery, target.name, file_suffix(&delivery->files[k]));
         if (result == 0) result = use(delivery, target.name, ".png");
     }
     return result == 0 ? use(delivery, NULL, ".json") : result;

@@ -43,12 +43,11 @@ int delivery_sheet(const Delivery *delivery, const TargetFile *file, const Shots
                    const char *path) {
     Sheet sheet = {.scale = {1.0f}};
     WeftPanel panels[PANELS] = {{0}};
-    WeftTarget target = {.name = ""};
+    const WeftTarget target = file_target(file);
     WeftImage picture = {0};
     WeftError error;
     char caption[300];
     WeftResult result = WEFT_OK;
-    weft_target_info(file->target, &target);
     for (int v = 0; v < VIEW_COUNT && result == WEFT_OK; v++) {
         result = row_make(&sheet, v, shots, reference, &error);
         row_label(&sheet, v, delivery, file, target.name);

@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/path.h"
 #include "cli/console/names.h"
@@ -75,7 +76,7 @@ static int profile_set(const Delivery *delivery, WeftScene *scene) {
 /* Decides what the numbers of the original mean, and what the pictures show. */
 static int meaning_set(Delivery *delivery, SourceKind kind, WeftScene *scene) {
     const int khronos = kind_find(kind_of("profile"), "khronos");
-    const bool woven = is_woven(scene);
+    const bool woven = delivery->woven = is_woven(scene);
     delivery->from = khronos;
     delivery->reference = "its threads";
     if (kind == SOURCE_ASSET) {
@@ -148,10 +149,11 @@ static int number_check(const WeftScene *scene, int index, const char *number) {
     return 0;
 }
 
-/* Bakes the cloth of a material to textures, and gives it these. */
-static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftMaterial *material) {
+/* Bakes the cloth of a material to textures that are fitted to a profile, and gives it these. */
+static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftMaterial *material,
+                      const char *profile) {
     const WeftClothInfo info = weft_scene_cloth_info(scene, material->cloth);
-    const WeftBaking baking = {.pixels = delivery->pixels, .metres = (double)info.metres};
+    const WeftBaking baking = {.pixels = delivery->pixels, .metres = (double)info.metres, .profile = profile};
     const WeftMaterial bare = without_layers(material);
     WeftYarn yarns[2];
     WeftCloth *cloth = NULL;
@@ -160,7 +162,7 @@ static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const Wef
     snprintf(number, sizeof number, "%d", index);
     const int checked = number_check(scene, index, number);
     if (checked != 0) return checked;
-    snprintf(folder, sizeof folder, "%.3900s/bake-%d", delivery->temporary, index);
+    snprintf(folder, sizeof folder, "%.3900s/bake-%.32s-%d", delivery->temporary, profile, index);
     snprintf(file, sizeof file, "%s/material.json", folder);
     const WeftDraft *draft = weft_scene_cloth(scene, material->cloth, yarns);
     WeftResult result = weft_cloth_create(draft, yarns, (unsigned)info.seed, &cloth, &error);
@@ -174,24 +176,49 @@ static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const Wef
     return told(result, &error);
 }
 
-int source_write(Delivery *delivery) {
-    WeftScene *scene = NULL;
+int source_bake(Delivery *delivery, const char *profile, WeftScene **out) {
     WeftMaterial material;
     WeftError error;
-    int result = source_load(delivery, &scene);
-    if (result == 0 && source_kind(delivery->what) == SOURCE_ASSET && !is_woven(scene)) {
-        snprintf(delivery->source, sizeof delivery->source, "%s", delivery->what);
-        weft_scene_free(scene);
-        return 0;
-    }
-    const int count = result == 0 ? weft_scene_info(scene).material_count : 0;
+    int result = source_load(delivery, out);
+    const int count = result == 0 ? weft_scene_info(*out).material_count : 0;
     for (int k = 0; k < count && result == 0; k++) {
-        result = told(weft_scene_material(scene, k, &material, &error), &error);
-        if (result == 0 && material.cloth) result = cloth_bake(delivery, scene, k, &material);
+        result = told(weft_scene_material(*out, k, &material, &error), &error);
+        if (result == 0 && material.cloth) result = cloth_bake(delivery, *out, k, &material, profile);
         if (result == 0 && delivery_heed(delivery, (double)(k + 1) / count)) result = WEFT_INTERRUPTED;
     }
-    snprintf(delivery->source, sizeof delivery->source, "%.4000s/source.glb", delivery->temporary);
-    if (result == 0) result = told(weft_scene_save(scene, delivery->source, &error), &error);
+    return result;
+}
+
+/* Returns true if every material is cloth, so that all of the source is made for the target and nothing has to be
+ * converted from another engine. */
+static bool all_woven(const WeftScene *scene) {
+    WeftMaterial material;
+    for (int k = 0; k < weft_scene_info(scene).material_count; k++)
+        if (weft_scene_material(scene, k, &material, NULL) != WEFT_OK || !material.cloth) return false;
+    return true;
+}
+
+int source_write(Delivery *delivery, const TargetFile *file, char path[DELIVER_PATH], int *from) {
+    const WeftTarget target = file_target(file);
+    const char *profile = target.fit;
+    WeftScene *scene = NULL;
+    WeftError error;
+    *from = delivery->from;
+    if (!delivery->woven && source_kind(delivery->what) == SOURCE_ASSET) {
+        snprintf(path, DELIVER_PATH, "%s", delivery->what);
+        return 0;
+    }
+    int result = source_load(delivery, &scene);
+    if (result == 0 && all_woven(scene))
+        *from = kind_find(kind_of("profile"), target.profile);
+    else if (delivery->from >= 0) /* beside cloth there is what was made for that engine, and the file is for one */
+        profile = weft_profile_name(delivery->from);
+    weft_scene_free(scene);
+    snprintf(path, DELIVER_PATH, "%.3900s/source-%.32s.glb", delivery->temporary, profile);
+    if (result != 0 || access(path, F_OK) == 0) return result; /* it was made for a target before this */
+    scene = NULL;
+    result = source_bake(delivery, profile, &scene);
+    if (result == 0) result = told(weft_scene_save(scene, path, &error), &error);
     weft_scene_free(scene);
     return result;
 }

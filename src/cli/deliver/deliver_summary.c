@@ -44,16 +44,15 @@ static void materials_write(Json *json, const WeftDelivery *delivery) {
 }
 
 static void target_file_write(Json *json, const Delivery *delivery, const TargetFile *file) {
-    WeftTarget target = {.name = ""};
+    const WeftTarget target = file_target(file);
     char name[DELIVER_PATH];
-    weft_target_info(file->target, &target);
     json_open(json, NULL, '{');
     json_text(json, "target", target.name);
     json_text(json, "viewer", target.help);
     json_text(json, "profile", target.profile);
     json_open(json, "files", '{');
-    snprintf(name, sizeof name, "%s-%s.glb", delivery->name, target.name);
-    json_text(json, "gltf", name);
+    snprintf(name, sizeof name, "%s-%s%s", delivery->name, target.name, file_suffix(file));
+    json_text(json, file->target == TARGET_U3M ? "u3m" : "gltf", name);
     snprintf(name, sizeof name, "%s-%s.png", delivery->name, target.name);
     json_text(json, "sheet", name);
     json_close(json, '}');
@@ -92,8 +91,7 @@ void summary_print(const Delivery *delivery) {
     for (int k = 0; k < delivery->count; k++) {
         const TargetFile *file = &delivery->files[k];
         const ViewErrors *views = file->errors.views;
-        WeftTarget target = {.name = ""};
-        weft_target_info(file->target, &target);
+        const WeftTarget target = file_target(file);
         printf("%-10s", target.name);
         for (int v = 0; v < VIEW_COUNT; v++)
             printf(" %11.1f %% %6.1f %%", 100.0 * views[v].color, 100.0 * views[v].profile);

@@ -34,9 +34,12 @@ typedef struct Errors {
     double sky; /* light returned under an even sky over the reference's, less 1 */
 } Errors;
 
+/* Stands for a U3M among targets, which are glTF otherwise. */
+enum { TARGET_U3M = -1 };
+
 /* A file that was made for a target. */
 typedef struct TargetFile {
-    int target; /* as weft_target_info counts */
+    int target; /* as weft_target_info counts, or TARGET_U3M */
     WeftDelivery delivery;
     Errors errors;
     long long bytes;
@@ -54,8 +57,8 @@ typedef struct Delivery {
     WeftBrdfMetric metric;
     int pixels, width, height, spp;
     char cameras[VIEW_COUNT][WEFT_CAMERA_TEXT];
-    char source[DELIVER_PATH]; /* the glTF file that the targets are made from */
-    char lost[400];            /* what the original has and that file lacks, sentences; "": nothing */
+    bool woven;     /* it has cloth, which is baked for each target by itself */
+    char lost[400]; /* what the original has and its textures lack, sentences; "": nothing */
     TargetFile files[DELIVER_TARGETS];
     int count;
     Progress progress;
@@ -74,8 +77,21 @@ SourceKind source_kind(const char *what);
 /* Reads what is delivered as a scene, which is what the pictures are compared with. May be called again. */
 int source_load(Delivery *delivery, WeftScene **out);
 
-/* Makes the glTF file that the targets are made from. Cloth that is woven is baked. */
-int source_write(Delivery *delivery);
+/* Reads what is delivered, with its cloth baked and fitted to a profile. */
+int source_bake(Delivery *delivery, const char *profile, WeftScene **out);
+
+/* Makes the glTF file that the file of a target is made from, and sets its path, and the profile that its numbers are
+ * meant for. */
+int source_write(Delivery *delivery, const TargetFile *file, char path[DELIVER_PATH], int *from);
+
+/* Returns what a file is for; the suffix of its name. */
+WeftTarget file_target(const TargetFile *file);
+const char *file_suffix(const TargetFile *file);
+
+/* Writes the U3M of what is delivered, which has one material; and reads what is delivered with the material of that
+ * file. */
+int u3m_write(Delivery *delivery, TargetFile *file, const char *path);
+int u3m_load(Delivery *delivery, const char *path, WeftScene **out);
 
 /* Chooses the cameras of the pictures. */
 int shots_aim(Delivery *delivery, const WeftScene *scene);

@@ -17,20 +17,25 @@
 #include "cli/operands/root.h"
 #include "cli/verbs/verbs.h"
 
-/* Returns the index of the target of that name, or -1 after one line. */
-static int target_named(const char *name) {
+/* Finds the target of that name: 0, or an exit code after one line. */
+static int target_named(const char *name, int *out) {
     Nearest nearest = {.typed = name};
     WeftTarget target;
     char list[160] = "", hint[96];
     size_t used = 0;
     for (int k = 0; weft_target_info(k, &target); k++) {
-        if (strcmp(target.name, name) == 0) return k;
+        if (strcmp(target.name, name) == 0) {
+            *out = k;
+            return 0;
+        }
         nearest_offer(&nearest, target.name);
         used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", k ? ", " : "", target.name);
     }
+    *out = TARGET_U3M;
+    if (strcmp(name, "u3m") == 0) return 0;
+    nearest_offer(&nearest, "u3m");
     nearest_hint(&nearest, hint, sizeof hint);
-    report(WEFT_USAGE, "--to %.60s: is not a target; there are %s%s", name[0] ? name : "\"\"", list, hint);
-    return -1;
+    return report(WEFT_USAGE, "--to %.60s: is not a target; there are %s, u3m%s", name[0] ? name : "\"\"", list, hint);
 }
 
 /* Reads the targets, "three,babylon"; each once. */
@@ -41,8 +46,8 @@ static int targets_read(Delivery *delivery) {
     for (const char *end; at; at = *end ? end + 1 : NULL) {
         end = at + strcspn(at, ",");
         snprintf(name, sizeof name, "%.*s", (int)(end - at), at);
-        const int target = target_named(name);
-        if (target < 0) return WEFT_USAGE;
+        int target;
+        if (target_named(name, &target) != 0) return WEFT_USAGE;
         for (int k = 0; k < delivery->count; k++)
             if (delivery->files[k].target == target) return report(WEFT_USAGE, "--to %s: is named twice", name);
         delivery->files[delivery->count++].target = target;
@@ -105,18 +110,38 @@ static int options_take(Delivery *delivery) {
     return name_read(delivery);
 }
 
+/* Reads a delivered file again, to be shaded as its target does. */
+static int target_file_load(Delivery *delivery, const TargetFile *file, const char *path, WeftScene **scene) {
+    WeftError error;
+    if (file->target == TARGET_U3M) return u3m_load(delivery, path, scene);
+    WeftResult result = weft_scene_load(path, scene, NULL, &error);
+    if (result == WEFT_OK) result = weft_scene_set(*scene, "*.profile", file_target(file).profile, NULL, &error);
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
+/* Writes a glTF file from the source that is made for it. */
+static int gltf_write(Delivery *delivery, TargetFile *file, const char *path) {
+    char source[DELIVER_PATH];
+    int from;
+    WeftError error;
+    const double low = delivery->low, middle = 0.5 * (low + delivery->high), high = delivery->high;
+    delivery_part(delivery, low, middle);
+    const int result = source_write(delivery, file, source, &from);
+    if (result != 0) return result;
+    delivery_part(delivery, middle, high);
+    const WeftResult made = weft_deliver(source, path, from, file->target, delivery->metric, delivery_heed, delivery,
+                                         &file->delivery, NULL, &error);
+    return made == WEFT_OK || made == WEFT_INTERRUPTED ? (int)made : report_error(&error);
+}
+
 /* Renders a delivered file as its target shades it, and compares it with the reference. */
 static int target_file_judge(Delivery *delivery, TargetFile *file, const Shots *reference, const char *path) {
-    WeftTarget target = {.name = ""};
+    const WeftTarget target = file_target(file);
     WeftScene *scene = NULL;
-    WeftError error;
     Shots shots = {.sky = {0}};
     char sheet[DELIVER_PATH];
-    weft_target_info(file->target, &target);
     folder_path(delivery, target.name, ".png", sheet);
-    WeftResult loaded = weft_scene_load(path, &scene, NULL, &error);
-    if (loaded == WEFT_OK) loaded = weft_scene_set(scene, "*.profile", target.profile, NULL, &error);
-    int result = loaded == WEFT_OK ? 0 : report_error(&error);
+    int result = target_file_load(delivery, file, path, &scene);
     if (result == 0) result = shots_take(delivery, scene, &shots);
     if (result == 0) result = shots_compare(&shots, reference, &file->errors);
     if (result == 0) result = delivery_sheet(delivery, file, &shots, reference, sheet);
@@ -126,18 +151,15 @@ static int target_file_judge(Delivery *delivery, TargetFile *file, const Shots *
 }
 
 static int target_file_make(Delivery *delivery, TargetFile *file, const Shots *reference, double low, double high) {
-    WeftTarget target = {.name = ""};
-    WeftError error;
+    static const double MADE = 0.6; /* where the making ends */
     struct stat status;
     char path[DELIVER_PATH];
-    weft_target_info(file->target, &target);
-    folder_path(delivery, target.name, ".glb", path);
-    delivery_part(delivery, low, low + 0.4 * (high - low));
-    const WeftResult made = weft_deliver(delivery->source, path, delivery->from, file->target, delivery->metric,
-                                         delivery_heed, delivery, &file->delivery, NULL, &error);
-    if (made != WEFT_OK) return made == WEFT_INTERRUPTED ? (int)made : report_error(&error);
+    folder_path(delivery, file_target(file).name, file_suffix(file), path);
+    delivery_part(delivery, low, low + MADE * (high - low));
+    const int made = file->target == TARGET_U3M ? u3m_write(delivery, file, path) : gltf_write(delivery, file, path);
+    if (made != 0) return made;
     if (stat(path, &status) == 0) file->bytes = (long long)status.st_size;
-    delivery_part(delivery, low + 0.4 * (high - low), high);
+    delivery_part(delivery, low + MADE * (high - low), high);
     return target_file_judge(delivery, file, reference, path);
 }
 
@@ -151,9 +173,9 @@ static int summary_file(const Delivery *delivery) {
     return output_end(&output);
 }
 
-/* Draws the reference, makes the source, then each target's files; all in the temporary folder. */
+/* Draws the reference, then makes each target's files; all in the temporary folder. */
 static int all_make(Delivery *delivery) {
-    static const double REFERENCE = 0.2, SOURCE = 0.3; /* where these parts of the work end */
+    static const double REFERENCE = 0.2; /* where this part of the work ends */
     WeftScene *scene = NULL;
     Shots reference = {.sky = {0}};
     delivery_part(delivery, 0.0, 0.05);
@@ -162,12 +184,9 @@ static int all_make(Delivery *delivery) {
     delivery_part(delivery, 0.05, REFERENCE);
     if (result == 0) result = shots_take(delivery, scene, &reference);
     weft_scene_free(scene);
-    delivery_part(delivery, REFERENCE, SOURCE);
-    if (result == 0) result = source_write(delivery);
     for (int k = 0; k < delivery->count && result == 0; k++) {
-        const double each = (1.0 - SOURCE) / delivery->count;
-        result =
-            target_file_make(delivery, &delivery->files[k], &reference, SOURCE + each * k, SOURCE + each * (k + 1));
+        const double each = (1.0 - REFERENCE) / delivery->count, low = REFERENCE + each * k;
+        result = target_file_make(delivery, &delivery->files[k], &reference, low, low + each);
     }
     if (result == 0) result = summary_file(delivery);
     if (result == 0 && interrupt_seen()) result = WEFT_INTERRUPTED;
@@ -200,6 +219,8 @@ static void targets_list(void) {
     WeftTarget target;
     printf("\nTargets\n");
     for (int k = 0; weft_target_info(k, &target); k++) layout_entry(stdout, 12, target.name, target.help);
+    target = file_target(&(TargetFile){.target = TARGET_U3M});
+    layout_entry(stdout, 12, target.name, target.help);
 }
 
 static const Option deliver_options[] = {
@@ -238,8 +259,9 @@ const Verb verb_deliver = {
              "For each target DIR/NAME-TARGET.glb is written, and DIR/NAME-TARGET.png: the\n"
              "reference, the file as its target shades it, and how they differ, near and far.\n"
              "DIR/NAME.json has all numbers. Extensions that the target does not read are\n"
-             "taken out, and the factors that remain are matched again. Files take their\n"
-             "places at the end, when all are made.\n\n"
+             "taken out, and the factors that remain are matched again. Woven cloth is baked\n"
+             "and fitted for each target by itself. Files take their places at the end, when\n"
+             "all are made. For u3m the file is DIR/NAME-u3m.u3ma.\n\n"
              "There is no target for Unreal Engine 5: weft has no profile of its Substrate, by\n"
              "which a file could be matched and judged.\n\n"
              "docs/deliver.md goes from a draft to a page on the web.\n\n"

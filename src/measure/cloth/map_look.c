@@ -59,7 +59,8 @@ typedef struct LookRow {
 typedef struct LookFit {
     const MapGrid *grid;
     const WeftCloth *cloth;
-    Surface bare; /* of the maps without texels */
+    Surface bare;   /* of the maps without texels */
+    Material plain; /* the same with a sheen */
     Choices choices;
     AlbedoTable *table;
     MapPairs pairs;
@@ -434,10 +435,25 @@ static double chance(const LookFit *fit, int c, float shade) {
     return blocks / fmax(whole, 1e-9);
 }
 
+/* Leaves the numbers that a profile does not read at what a file without them means. */
+static void unread_fix(const LookFit *fit, SearchAxis axis[AXES]) {
+    static const struct {
+        int axis, input;
+        double usual;
+    } rows[] = {{AXIS_ANISOTROPY, INPUT_anisotropy, 0.9}, /* viewers without it do not have its map either */
+                {AXIS_SPECULAR, INPUT_specular, 1.0},
+                {AXIS_SHEEN, INPUT_sheen_color, 0.0},
+                {AXIS_SHEEN_ROUGHNESS, INPUT_sheen_roughness, 0.6}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+        if (!weft_material_reads(&fit->plain, rows[k].input))
+            axis[rows[k].axis] = (SearchAxis){rows[k].usual, rows[k].usual};
+}
+
 static void look_search(LookFit *fit, WeftBaked *found) {
     double x[AXES], sky;
     Search search = {.axes = AXES, .error = error_at, .user = fit, .grid = 64, .descents = 3, .most = 120};
     memcpy(search.axis, axes, sizeof axes);
+    unread_fix(fit, search.axis);
     copy_start(fit->cloth, x);
     found->copied = copied_error(fit, x);
     x[AXIS_NORMAL] = 0.4;
@@ -481,6 +497,8 @@ WeftResult map_look_find(const MapGrid *grid, const WeftMaterial *material, cons
         *fit = (LookFit){.grid = grid, .cloth = cloth, .blocks = blocks, .bare = material_plain(&bare), .holed = holed};
         fit->choices = material_choices(&bare);
         fit->pairs = map_pairs();
+        fit->plain = bare;
+        for (int c = 0; c < 3; c++) fit->plain.inputs[INPUT_sheen_color].value[c] = 1.0f;
         if (!table_make(fit)) result = fail(error, WEFT_MESSAGE_MEMORY, "maps", NULL);
     }
     if (result == WEFT_OK) {
