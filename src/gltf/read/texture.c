@@ -222,6 +222,18 @@ static void images_decode(Jobs *jobs, int first) {
     }
 }
 
+/* Gives textures the mip levels that their files have of their own. */
+static void levels_take(Jobs *jobs) {
+    WeftScene *scene = jobs->asset->scene;
+    for (int i = 0; i < scene->image_count; i++) {
+        if (!scene->images[i].pixels) continue;
+        const Span bytes = jobs->items[i].bytes;
+        const TextureLevels *levels = levels_read(&scene->arena, bytes.data, bytes.size, &scene->images[i]);
+        for (int t = 0; t < scene->texture_count && levels; t++)
+            if (scene->textures[t].image == i) scene->textures[t].levels = levels;
+    }
+}
+
 /* Returns the name of image number index in messages: its file, or the asset's name and the place in it. */
 static const char *image_name(Asset *asset, int index) {
     size_t size = strlen(asset->name) + 32;
@@ -376,6 +388,7 @@ void textures_resolve(Asset *asset) {
     if (asset->result == WEFT_OK) {
         images_decode(&jobs, 0);
         if (asset->result == WEFT_OK && !asset->examined) spares_take(&jobs, image_of_source);
+        if (asset->result == WEFT_OK) levels_take(&jobs);
         pthread_mutex_destroy(&jobs.log_lock);
     }
     for (int i = 0; i < scene->image_count; i++) free(jobs.items[i].owned);

@@ -88,34 +88,58 @@ static char *encode(Saving *saving, const WeftImage *image, size_t *size) {
     return bytes;
 }
 
-static void image_save(Saving *saving, int number) {
-    const WeftImage *image = &saving->scene->images[saving->image_order[number]];
-    bool floats = image->type == WEFT_PIXEL_F32;
-    json_t *object = json_object();
-    size_t size = 0;
-    char end[32], *bytes = saving->result == WEFT_OK ? encode(saving, image, &size) : NULL;
-    snprintf(end, sizeof end, "-%d.%s", number, floats ? "npy" : "png");
+/* Adds a picture to the list of images. */
+static void picture_put(Saving *saving, const void *bytes, size_t size, const char *media, const char *suffix) {
+    json_t *object = json_object(), *list = saving_list(saving, "images");
+    char end[32];
+    snprintf(end, sizeof end, "-%d.%s", (int)json_array_size(list), suffix);
     if (saving->packed) {
-        saving_put(saving, object, "mimeType", json_string(floats ? "application/octet-stream" : "image/png"));
+        saving_put(saving, object, "mimeType", json_string(media));
         saving_put(saving, object, "bufferView", json_integer(saving_view(saving, bytes ? bytes : "", size, 0)));
     } else {
         const char *path = saving_beside(saving, end), *uri = path ? saving_uri(saving, path) : NULL;
         if (uri) saving_put(saving, object, "uri", json_string(uri));
         if (uri) saving_write(saving, path, bytes, size, NULL, 0);
     }
+    saving_append(saving, list, object);
+}
+
+static void image_save(Saving *saving, int number) {
+    const WeftImage *image = &saving->scene->images[saving->image_order[number]];
+    bool floats = image->type == WEFT_PIXEL_F32;
+    size_t size = 0;
+    char *bytes = saving->result == WEFT_OK ? encode(saving, image, &size) : NULL;
+    picture_put(saving, bytes, size, floats ? "application/octet-stream" : "image/png", floats ? "npy" : "png");
     free(bytes);
-    saving_append(saving, saving_list(saving, "images"), object);
+}
+
+/* Names the file with levels of its own beside the plain picture, for viewers that read it. Textures of one picture share
+ * it: shared[image], 0: not there yet. */
+static void levels_save(Saving *saving, const Texture *texture, json_t *object, int *shared) {
+    const TextureLevels *levels = texture->levels;
+    int *number = &shared[texture->image];
+    if (!levels) return;
+    if (!*number) {
+        *number = (int)json_array_size(saving_list(saving, "images"));
+        picture_put(saving, levels->file, levels->size, "image/ktx2", "ktx2");
+    }
+    json_t *offer = json_object();
+    saving_put(saving, offer, "source", json_integer(*number));
+    saving_extend(saving, object, "KHR_texture_basisu", offer);
 }
 
 void textures_save(Saving *saving) {
     if (!number_all(saving)) saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
     if (saving->result != WEFT_OK) return;
-    for (int k = 0; k < saving->texture_count; k++) {
+    int *shared = arena_array(&saving->arena, (size_t)saving->scene->image_count + 1, sizeof *shared);
+    if (!shared) saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
+    for (int k = 0; k < saving->image_count; k++) image_save(saving, k);
+    for (int k = 0; k < saving->texture_count && shared; k++) {
         const Texture *texture = &saving->scene->textures[saving->texture_order[k]];
         json_t *object = json_object();
         saving_put(saving, object, "source", json_integer(saving->image_number[texture->image]));
         sampler_put(saving, texture, object);
+        levels_save(saving, texture, object, shared);
         saving_append(saving, saving_list(saving, "textures"), object);
     }
-    for (int k = 0; k < saving->image_count; k++) image_save(saving, k);
 }

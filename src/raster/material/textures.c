@@ -98,7 +98,8 @@ static int make_plan(Plan *plan) {
             int texture = material->inputs[k].texture - 1;
             if (texture < 0) continue;
             place(plan, texture, textures_use(material, k));
-            bool slopes = input_infos[k].kind == WEFT_INPUT_NORMAL && !scene->textures[texture].nearest;
+            const Texture *t = &scene->textures[texture]; /* levels of its own have the slopes in their roughness */
+            bool slopes = input_infos[k].kind == WEFT_INPUT_NORMAL && !t->nearest && !t->levels;
             if (slopes) place(plan, texture, TEXTURE_SLOPES);
         }
         int count = count_groups(plan->places, scene->texture_count, material);
@@ -194,6 +195,14 @@ static size_t level_at(const TextureGroup *group, int level) {
     return texels * texel_size(group);
 }
 
+/* Returns true if the levels of a group can be those of the texture's file: bytes, in the picture's own size. */
+static bool has_own_levels(const WeftScene *scene, int texture, const TextureGroup *group) {
+    const Texture *t = &scene->textures[texture];
+    const WeftImage *image = &scene->images[t->image];
+    return t->levels && group->format != GL_RGBA16F && image->width == group->width && image->height == group->height &&
+           levels_of(group) == t->levels->count + 1;
+}
+
 static void make_layer(void *user, int item, int thread) {
     const ArrayLayers *layers = user;
     const Layer *layer = &layers->items[item];
@@ -207,11 +216,14 @@ static void make_layer(void *user, int item, int thread) {
         return;
     }
     put_texels(scene, texture, use, group, to);
+    const TextureLevels *own = has_own_levels(scene, texture, group) ? scene->textures[texture].levels : NULL;
     for (int level = 1, w = group->width, h = group->height; level < levels_of(group);
          level++, w = halved(w), h = halved(h)) {
         unsigned char *from = to;
         to += (size_t)w * (size_t)h * texel_size(group);
-        if (group->format == GL_RGBA16F)
+        if (own)
+            spread(&own->images[level - 1], to);
+        else if (group->format == GL_RGBA16F)
             halve_f32((const float *)from, w, h, (float *)to);
         else
             halve_u8(from, w, h, group->format == GL_SRGB8_ALPHA8, to);

@@ -40,6 +40,7 @@ void picture_replace(WeftScene *scene, int image, WeftImage *fresh, const char *
         if (scene->textures[k].image != image) continue;
         scene->textures[k].version++;
         scene->textures[k].path = path;
+        scene->textures[k].levels = NULL;
         if (!path) scene->textures[k].inverted = 0;
     }
     reliefs_renew(scene, image);
@@ -97,8 +98,13 @@ WeftResult weft_scene_read_texture(WeftScene *scene, int index, const WeftLog *l
     if (!path) return fail(error, WEFT_MESSAGE_DESC, "texture", "number %d has no file of its own", index);
     WeftResult result = weft_image_read(path, &image, log, error);
     if (result != WEFT_OK) return result;
+    const int number = scene->textures[index - 1].image;
+    const bool inverted = scene->textures[index - 1].inverted != 0;
+    const TextureLevels *levels = inverted ? NULL : levels_read_file(&scene->arena, path, &image);
     picture_invert(&image, scene->textures[index - 1].inverted);
-    picture_replace(scene, scene->textures[index - 1].image, &image, path);
+    picture_replace(scene, number, &image, path);
+    for (int k = 0; k < scene->texture_count; k++)
+        if (scene->textures[k].image == number) scene->textures[k].levels = levels;
     return WEFT_OK;
 }
 

@@ -87,12 +87,25 @@ static inline Channels interpolate(const WeftImage *image, const SrgbTable *srgb
     return c + (below - c) * y.t;
 }
 
-Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, float u, float v) {
-    const WeftImage *image = &images[texture->image];
+/* Looks up one place in an image of the texture. */
+static Channels fetch_one(const Texture *texture, const WeftImage *image, const SrgbTable *srgb, float u, float v) {
     TexelSpan x = span_at(u, image->width, texture->wrap_u, !texture->nearest);
     TexelSpan y = span_at(v, image->height, texture->wrap_v, !texture->nearest);
-    Channels c = interpolate(image, srgb, x, y);
+    return interpolate(image, srgb, x, y);
+}
+
+Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, float u, float v) {
+    Channels c = fetch_one(texture, &images[texture->image], srgb, u, v);
     return (Texel){{c[0], c[1], c[2], c[3]}};
+}
+
+void texture_fetch_levels(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n, const float *u,
+                          const float *v, const int *level, float *texels) {
+    for (int k = 0; k < n; k++) {
+        const WeftImage *image = level[k] > 0 ? &texture->levels->images[level[k] - 1] : &images[texture->image];
+        Channels c = fetch_one(texture, image, srgb, u[k], v[k]);
+        for (int channel = 0; channel < 4; channel++) texels[channel * ROW_CAPACITY + k] = c[channel];
+    }
 }
 
 typedef struct SpanRows {

@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 
+#include "scene/record/levels.h"
 #include "weft/image.h"
 
 typedef enum TextureWrap { WRAP_REPEAT = 0, WRAP_MIRROR, WRAP_CLAMP } TextureWrap;
@@ -14,9 +15,10 @@ typedef struct Texture {
     int source;     /* number of the texture that this one was smoothed from (scene/material/relief.h); 0: none */
     float sigma[2]; /* of that Gaussian along u and v, as parts of the sides; infinite: flat */
     /* Properties of the image, equal for all textures of it: */
-    const char *path;  /* path of its file; NULL if it is not a file of its own */
-    unsigned version;  /* counts changes of the pixels */
-    unsigned inverted; /* bit c: channel c is 1 - that of the file, as roughness is of a picture of gloss */
+    const char *path;            /* path of its file; NULL if it is not a file of its own */
+    unsigned version;            /* counts changes of the pixels */
+    const TextureLevels *levels; /* of its own, in the scene's memory; NULL: none */
+    unsigned inverted;           /* bit c: channel c is 1 - that of the file, as roughness is of a picture of gloss */
 } Texture;
 
 typedef struct Texel {
@@ -39,3 +41,7 @@ Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbT
  * is texels[c * ROW_CAPACITY + k]. */
 void texture_fetch_rows(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n, const float *u,
                         const float *v, float *texels);
+
+/* Does the same for a texture with levels of its own: place k is looked up in level[k], 0 to levels->count. */
+void texture_fetch_levels(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n, const float *u,
+                          const float *v, const int *level, float *texels);

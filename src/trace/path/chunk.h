@@ -55,6 +55,9 @@ typedef struct TexelRows {
     Row uv[2][2];               /* texture coordinates of the mesh, by set */
     Row placed_uv[2];           /* the same after the input's placement */
     Row texel[4];               /* RGBA */
+    Row edges[2][2][2];         /* two edges of the pixel on the surface, in texture coordinates, by set */
+    Row chance;                 /* by which one of two mip levels is looked up */
+    int level[ROW_CAPACITY];    /* of textures that have levels of their own */
 } TexelRows;
 
 typedef struct LightBySlot LightBySlot; /* slot_light.h */
@@ -153,6 +156,9 @@ int chunk_inside(const Chunk *chunk, const ChunkSource *source, int k, bool belo
 
 /* Finds the threads of a woven material at n vertices; needs texture coordinates (footprint.c). */
 void chunk_find_threads(Chunk *chunk, const ChunkSource *source, int n);
+
+/* Finds the edges of pixels on a material with mip levels of its own, in a set of texture coordinates (footprint.c). */
+void chunk_find_edges(Chunk *chunk, const ChunkSource *source, int set, int n);
 
 /* Reads the material's inputs at n vertices (vertex_inputs.c). */
 void chunk_read_inputs(Chunk *chunk, const ChunkSource *source, int n);

@@ -61,16 +61,34 @@ FN UvEdge project(UvPlane p, Dir d, Dir edge) {
 }
 
 /* Gathers the differences of texture coordinates along two edges of the triangles. */
-static void gather_uv_edges(Chunk *chunk, const WeftScene *scene, int n) {
+static void gather_uv_edges(Chunk *chunk, const WeftScene *scene, int set, int n) {
     for (int k = 0; k < n; k++) {
         const Mesh *mesh = &scene->meshes[chunk->mesh[k]];
         const uint32_t *index = mesh->index + 3 * (size_t)chunk->triangle[k];
         for (int edge = 0; edge < 2; edge++)
             for (int a = 0; a < 2; a++)
-                chunk->uv_edge[edge][a][k] = mesh->texcoord[0] ? mesh->texcoord[0][2 * index[edge + 1] + (uint32_t)a] -
-                                                                     mesh->texcoord[0][2 * index[0] + (uint32_t)a]
-                                                               : 0.0f;
+                chunk->uv_edge[edge][a][k] = mesh->texcoord[set]
+                                                 ? mesh->texcoord[set][2 * index[edge + 1] + (uint32_t)a] -
+                                                       mesh->texcoord[set][2 * index[0] + (uint32_t)a]
+                                                 : 0.0f;
     }
+}
+
+/* The two edges of a pixel on the plane. */
+typedef struct UvEdges {
+    UvEdge a, b;
+} UvEdges;
+
+/* Returns the edges of the pixel of path k: the first level, the second upright in the picture of an upright camera. */
+FN UvEdges edges_of(const Chunk *chunk, const float forward[3], const float pixel[2], bool scattered, size_t k) {
+    UvPlane plane = plane_of(chunk, k);
+    Dir d = dir_scale(ROW_DIR(chunk->wo, k), -1.0f);
+    bool level = abs(d.y) < 0.9f;
+    Dir side = dir_normal_or(dir_cross(d, dir(level ? 0.0f : 1.0f, level ? 1.0f : 0.0f, 0.0f)), d);
+    float width = width_of(chunk, forward, pixel, scattered, k);
+    UvEdges edges = {project(plane, d, dir_scale(side, width)),
+                     project(plane, d, dir_scale(dir_cross(side, d), width))};
+    return edges;
 }
 
 /* Returns the footprint of a pixel with edges a and b on the cloth. */
@@ -88,14 +106,8 @@ LOOP(footprints_n, (Chunk *restrict chunk, const PathContext *context, const Wef
     ClothPlacing placing = cloth_placing(cloth);
     uint32_t pair = SAMPLER_CLOTH + (uint32_t)depth;
     EACH(k, (size_t)n) {
-        UvPlane plane = plane_of(chunk, k);
-        Dir d = dir_scale(ROW_DIR(chunk->wo, k), -1.0f);
-        bool level = abs(d.y) < 0.9f;
-        Dir side = dir_normal_or(dir_cross(d, dir(level ? 0.0f : 1.0f, level ? 1.0f : 0.0f, 0.0f)), d);
-        float width = width_of(chunk, forward, pixel, depth > 0, k);
-        UvEdge a = project(plane, d, dir_scale(side, width)),
-               b = project(plane, d, dir_scale(dir_cross(side, d), width));
-        WeaveFootprint f = footprint_of(placing, a, b);
+        UvEdges edges = edges_of(chunk, forward, pixel, depth > 0, k);
+        WeaveFootprint f = footprint_of(placing, edges.a, edges.b);
         to->uv[0][k] = chunk->textures.uv[0][0][k];
         to->uv[1][k] = chunk->textures.uv[0][1][k];
         to->footprint_x[k] = f.x;
@@ -110,9 +122,31 @@ LOOP(footprints_n, (Chunk *restrict chunk, const PathContext *context, const Wef
 
 void chunk_find_threads(Chunk *chunk, const ChunkSource *source, int n) {
     const PathMaterial *material = &source->context->materials[source->material];
-    gather_uv_edges(chunk, source->context->scene, n);
+    gather_uv_edges(chunk, source->context->scene, 0, n);
     footprints_n(chunk, source->context, material->cloth, source->depth, n);
     chunk->cloth_points.holed = material->material.alpha_mode != WEFT_ALPHA_OPAQUE;
     bool seen = source->context->first_hits && source->depth == 0;
     cloth_bases(material->cloth, &chunk->cloth_points, n, &chunk->vertices.yarn, seen ? &chunk->cloth_guide : NULL);
+}
+
+/* Fills the edges of pixels, and the numbers by which one of two levels is looked up. */
+LOOP(edges_n, (Chunk *restrict chunk, const PathContext *context, int set, int depth, int n),
+     (chunk, context, set, depth, n)) {
+    const float forward[3] = {context->forward[0], context->forward[1], context->forward[2]};
+    const float pixel[2] = {context->pixel_width[0], context->pixel_width[1]};
+    uint32_t pair = SAMPLER_CLOTH + (uint32_t)depth;
+    TexelRows *to = &chunk->textures;
+    EACH(k, (size_t)n) {
+        UvEdges edges = edges_of(chunk, forward, pixel, depth > 0, k);
+        to->edges[set][0][0][k] = edges.a.u;
+        to->edges[set][0][1][k] = edges.a.v;
+        to->edges[set][1][0][k] = edges.b.u;
+        to->edges[set][1][1][k] = edges.b.v;
+        to->chance[k] = sampler_point(chunk->pixel[k], chunk->sample[k], pair).u;
+    }
+}
+
+void chunk_find_edges(Chunk *chunk, const ChunkSource *source, int set, int n) {
+    gather_uv_edges(chunk, source->context->scene, set, n);
+    edges_n(chunk, source->context, set, source->depth, n);
 }

@@ -17,6 +17,7 @@ typedef struct PathMaterial {
     bool textured;            /* inputs vary: by a texture, by colours of a mesh, or as it is woven */
     bool colored;             /* a mesh with this material has vertex colours */
     bool texcoords[2];        /* the sets of texture coordinates that it uses */
+    bool leveled[2];          /* the sets by which textures with levels of their own are looked up */
     bool emits;               /* may emit light */
     bool needs_tangents;      /* the shading frame depends on a normal map, a cloth or anisotropy */
     bool transmits;           /* transmits light: samples from both sides count */

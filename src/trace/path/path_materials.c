@@ -46,6 +46,7 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
         const Input *of = &prepared->material.inputs[input];
         prepared->textured |= of->texture != 0;
         prepared->texcoords[of->texcoord] |= of->texture != 0;
+        prepared->leveled[of->texcoord] |= of->texture && scene->textures[of->texture - 1].levels;
     }
     prepared->cloth = scene_cloth_of(scene, material);
     prepared->textured |= prepared->cloth != NULL;

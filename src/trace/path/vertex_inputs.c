@@ -28,14 +28,39 @@ LOOP(place_uv_n, (const Row uv[2], const float m[6], int n, Row *restrict placed
     }
 }
 
+/* Finds the levels of a texture in which a viewer looks it up: the longer edge of the pixel is about a texel long. Between
+ * two levels one is drawn, so that the mean is that of both. */
+static void find_levels(TexelRows *lookup, const Input *input, const WeftImage *image, int most) {
+    const float *m = input->transform;
+    for (int k = 0; k < lookup->n; k++) {
+        float longest = 1e-12f;
+        for (int e = 0; e < 2; e++) {
+            const float a = lookup->edges[input->texcoord][e][0][k], b = lookup->edges[input->texcoord][e][1][k];
+            const float u = (m[0] * a + m[1] * b) * (float)image->width,
+                        v = (m[3] * a + m[4] * b) * (float)image->height;
+            longest = fmaxf(longest, u * u + v * v);
+        }
+        const float level = fminf(fmaxf(0.5f * log2f(longest), 0.0f), (float)most);
+        const int drawn = (int)(level + lookup->chance[k]);
+        lookup->level[k] = drawn < most ? drawn : most;
+    }
+}
+
 /* Looks up the input's texture, unless the last look-up had the same texels. srgb: how to decode it; NULL: not. */
 static void fetch(TexelRows *lookup, const Input *input, const SrgbTable *srgb) {
     const Input *last = lookup->last;
     if (last && lookup->last_srgb == srgb && input_same_texels(last, input)) return;
     const WeftScene *scene = lookup->scene;
     place_uv_n((const Row *)lookup->uv[input->texcoord], input->transform, row_whole(lookup->n), lookup->placed_uv);
-    texture_fetch_rows(&scene->textures[input->texture - 1], scene->images, srgb, lookup->n, lookup->placed_uv[0],
-                       lookup->placed_uv[1], lookup->texel[0]);
+    const Texture *texture = &scene->textures[input->texture - 1];
+    if (texture->levels) {
+        find_levels(lookup, input, &scene->images[texture->image], texture->levels->count);
+        texture_fetch_levels(texture, scene->images, srgb, lookup->n, lookup->placed_uv[0], lookup->placed_uv[1],
+                             lookup->level, lookup->texel[0]);
+    } else {
+        texture_fetch_rows(texture, scene->images, srgb, lookup->n, lookup->placed_uv[0], lookup->placed_uv[1],
+                           lookup->texel[0]);
+    }
     lookup->last = input;
     lookup->last_srgb = srgb;
 }
@@ -118,6 +143,8 @@ void chunk_read_inputs(Chunk *chunk, const ChunkSource *source, int n) {
     lookup->n = n;
     for (int set = 0; set < 2; set++)
         if (material->texcoords[set]) gather_texcoords(chunk, scene, set, n, lookup->uv[set]);
+    for (int set = 0; set < 2; set++)
+        if (material->leveled[set]) chunk_find_edges(chunk, source, set, n);
 #define READ_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                             \
     if (inputs[INPUT_##name].texture) read_##kind(lookup, &inputs[INPUT_##name], chunk->vertices.surface.name);
     SURFACE_INPUTS(READ_INPUT)

@@ -1,0 +1,194 @@
+/* Mip levels that a KTX 2 file has of its own: both renderers draw them from afar, and a saved scene keeps the file
+ *
+ * Labels: unsanitized */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/file.h"
+#include "raster/gl.h"
+#include "scratch.h"
+#include "trace/scenes.h"
+
+enum { TEXELS = 64, LEVELS = 6, SIDE = 64 };
+static const char *const CAMERA = "0,2,0.001;0,0,0;43.6"; /* sees 1.6 m */
+
+/* Each level has a colour of its own, which no mean of the others has; sRGB. */
+static const unsigned char colors[LEVELS + 1][3] = {{200, 40, 40},   {40, 200, 40},   {40, 40, 200},  {120, 120, 120},
+                                                    {120, 120, 120}, {120, 120, 120}, {120, 120, 120}};
+
+static void fill(int level, WeftImage *image) {
+    const int side = TEXELS >> level;
+    assert_int_equal(weft_image_create(side, side, 3, WEFT_PIXEL_U8, image, NULL), WEFT_OK);
+    for (int k = 0; k < 3 * side * side; k++) ((unsigned char *)image->pixels)[k] = colors[level][k % 3];
+}
+
+/* Writes NAME.ktx2 with so many levels after the first, and NAME.json, a matt material of it. */
+static void material_write(const char *name, int levels) {
+    WeftImage images[LEVELS + 1];
+    WeftError error;
+    char path[64];
+    for (int k = 0; k <= LEVELS; k++) fill(k, &images[k]);
+    const WeftImageWriting how = {.levels = images + 1, .level_count = levels};
+    snprintf(path, sizeof path, "%s.ktx2", name);
+    if (weft_image_write_as(path, &images[0], &how, &error) != WEFT_OK) fail_msg("%s", error.text);
+    for (int k = 0; k <= LEVELS; k++) weft_image_free(&images[k]);
+    snprintf(path, sizeof path, "%s.json", name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "{\"base_color\": {\"texture\": \"%s.ktx2\"}, \"roughness\": 1, \"specular\": 0, \"reflectance\": 0}",
+            name);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* A square whose texture has so many texels across a pixel, in even light. */
+static WeftScene *square(const char *material, double across) {
+    static const float normal[3] = {0.0f, 1.0f, 0.0f};
+    const float repeats = (float)(across * SIDE / 1.6 * 2.0 / TEXELS);
+    WeftScene *scene = test_scene();
+    WeftError error;
+    test_material(scene, 0.5f);
+    Mesh *quad = test_quad(scene, vec3(-1.0f, 0.0f, 1.0f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -2.0f));
+    quad->normal = arena_array(&scene->arena, 4, sizeof normal);
+    quad->texcoord[0] = arena_array(&scene->arena, 8, sizeof(float));
+    for (int k = 0; k < 4; k++) {
+        memcpy(quad->normal + 3 * k, normal, sizeof normal);
+        quad->texcoord[0][2 * k] = k == 1 || k == 2 ? repeats : 0.0f;
+        quad->texcoord[0][2 * k + 1] = k == 2 || k == 3 ? repeats : 0.0f;
+    }
+    scene_bounds(scene);
+    test_environment(scene, 1.0f);
+    if (weft_scene_assign_material(scene, NULL, material, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return scene;
+}
+
+static WeftImage traced(const WeftScene *scene) {
+    const WeftRenderDesc desc = {.width = SIDE, .height = SIDE, .camera = CAMERA, .max_depth = 1, .threads = 2};
+    WeftRender *render;
+    WeftImage image;
+    assert_int_equal(weft_render_create(scene, &desc, &render, NULL), WEFT_OK);
+    assert_int_equal(weft_render_run(render, 16, 0.0, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_render_image(render, &image, NULL), WEFT_OK);
+    weft_render_free(render);
+    return image;
+}
+
+static WeftImage drawn(const WeftScene *scene) {
+    const WeftRasterView view = {.width = SIDE, .height = SIDE, .samples = 4, .camera = CAMERA, .no_shadows = 1};
+    WeftRaster *raster;
+    WeftImage image;
+    assert_int_equal(weft_raster_create(scene, &(WeftRasterDesc){.no_cache = 1}, &raster, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_raster_draw(raster, &view, NULL), WEFT_OK);
+    assert_int_equal(weft_raster_image(raster, &image, NULL), WEFT_OK);
+    weft_raster_free(raster);
+    return image;
+}
+
+static double linear(int byte) { return pow((byte / 255.0 + 0.055) / 1.055, 2.4); }
+
+/* Compares the mean of the middle of a picture with a mixture of two levels. */
+static void looks_like(WeftImage image, const char *what, int level, double next) {
+    for (int c = 0; c < 3; c++) {
+        double sum = 0.0;
+        for (int y = SIDE / 4; y < SIDE * 3 / 4; y++)
+            for (int x = SIDE / 4; x < SIDE * 3 / 4; x++)
+                sum += (double)((const float *)image.pixels)[image.channels * (y * SIDE + x) + c];
+        const double mean = sum * 4.0 / (SIDE * SIDE);
+        const double wanted =
+            linear(colors[level][c]) * (1.0 - next) + (next > 0.0 ? next * linear(colors[level + 1][c]) : 0.0);
+        if (!(fabs(mean - wanted) < 0.02 + 0.05 * wanted))
+            fail_msg("%s, level %d + %g, channel %d: %.4f, not %.4f", what, level, next, c, mean, wanted);
+    }
+    weft_image_free(&image);
+}
+
+/* Texels across a pixel, and what is seen of them. */
+static const struct {
+    double across;
+    int level;
+    double next; /* share of the level after it */
+} seen[] = {{0.5, 0, 0.0}, {1.0, 0, 0.0}, {2.0, 1, 0.0}, {4.0, 2, 0.0}, {2.8284, 1, 0.5}, {1.4142, 0, 0.5}};
+enum { SEEN = sizeof seen / sizeof *seen };
+
+static void both_renderers_draw_the_levels(void **state) {
+    (void)state;
+    material_write("own", LEVELS);
+    for (int k = 0; k < SEEN; k++) {
+        WeftScene *scene = square("own.json", seen[k].across);
+        looks_like(traced(scene), "traced", seen[k].level, seen[k].next);
+        if (!no_gl) looks_like(drawn(scene), "drawn", seen[k].level, seen[k].next);
+        weft_scene_free(scene);
+    }
+    if (no_gl) print_message("without OpenGL only the path tracer was tried\n");
+}
+
+/* Levels that do not go down to one texel are no pyramid: the picture itself is drawn, as if there were none. */
+static void levels_that_end_early_are_left_out(void **state) {
+    (void)state;
+    material_write("short", 2);
+    WeftScene *scene = square("short.json", 4.0);
+    looks_like(traced(scene), "traced", 0, 0.0);
+    weft_scene_free(scene);
+}
+
+/* Returns true if the bytes of one file are among those of another. */
+static bool holds(const FileBytes *file, const FileBytes *part) {
+    for (size_t k = 0; k + part->size <= file->size; k++)
+        if (memcmp(file->data + k, part->data, part->size) == 0) return true;
+    return false;
+}
+
+/* A packed scene has the file as it was, and a plain picture for viewers without its decoder; so has the same unpacked. */
+static void saved_scenes_keep_the_file(void **state) {
+    (void)state;
+    static const char *const paths[] = {"scene.glb", "scene.gltf"};
+    material_write("kept", LEVELS);
+    FileBytes file, saved, beside;
+    WeftError error;
+    assert_int_equal(file_read("kept.ktx2", SIZE_MAX, &file, NULL), WEFT_OK);
+    WeftScene *scene = square("kept.json", 4.0);
+    for (int k = 0; k < 2; k++) {
+        WeftScene *again;
+        if (weft_scene_save(scene, paths[k], &error) != WEFT_OK) fail_msg("%s", error.text);
+        assert_int_equal(file_read(paths[k], SIZE_MAX, &saved, NULL), WEFT_OK);
+        const FileBytes name = {.data = (unsigned char *)"KHR_texture_basisu", .size = 18};
+        const FileBytes plain = {.data = (unsigned char *)(k ? "-0.png" : "image/png"), .size = k ? 6 : 9};
+        assert_true(holds(&saved, &name) && holds(&saved, &plain));
+        if (k == 0) assert_true(holds(&saved, &file));
+        free(saved.data);
+        if (weft_scene_load(paths[k], &again, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+        assert_int_equal(again->image_count, 1);
+        test_environment(again, 1.0f);
+        looks_like(traced(again), paths[k], 2, 0.0);
+        weft_scene_free(again);
+    }
+    assert_int_equal(file_read("scene-1.ktx2", SIZE_MAX, &beside, NULL), WEFT_OK);
+    assert_true(beside.size == file.size && memcmp(beside.data, file.data, file.size) == 0);
+    free(beside.data);
+    free(file.data);
+    weft_scene_free(scene);
+}
+
+static int enter(void **state) {
+    static char folder[SCRATCH_SIZE];
+    *state = folder;
+    gl_begin(state);
+    return scratch_enter(folder) ? 0 : -1;
+}
+static int leave(void **state) { return chdir("/") == 0 && scratch_remove(*state) ? 0 : -1; }
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(both_renderers_draw_the_levels),
+        cmocka_unit_test(levels_that_end_early_are_left_out),
+        cmocka_unit_test(saved_scenes_keep_the_file),
+    };
+    return cmocka_run_group_tests(tests, enter, leave);
+}
