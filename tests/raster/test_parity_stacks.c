@@ -43,7 +43,7 @@ static void layer_rules_in_glsl_agree_with_c(void **state) {
 /* A surface and its choices are numbers in a row behind the pair of directions. */
 enum { SURFACE_AT = 8, CHOICES_AT = SURFACE_AT + sizeof(Surface) / sizeof(float) };
 enum { STACK_INPUTS = (CHOICES_AT + CHOICE_COUNT + 3) / 4 };
-_Static_assert((int)STACK_INPUTS == 27, "the body of stacks_agree reads as many");
+_Static_assert((int)STACK_INPUTS == 29, "the body of stacks_agree reads as many");
 
 /* Functions that make a Surface and Choices of the row. */
 static void put_readers(Text *text) {
@@ -124,7 +124,8 @@ static bool came_later(InputId input) {
     return input == INPUT_diffuse_roughness || input == INPUT_retroreflection || input == INPUT_fuzz ||
            input == INPUT_fuzz_color || input == INPUT_fuzz_roughness || input == INPUT_coat_ior ||
            input == INPUT_coat_color || input == INPUT_coat_darkening || input == INPUT_coat_anisotropy ||
-           input == INPUT_coat_anisotropy_direction;
+           input == INPUT_coat_anisotropy_direction || input == INPUT_transmission || input == INPUT_thickness ||
+           input == INPUT_attenuation_color || input == INPUT_attenuation_distance;
 }
 
 static void fill_stack(Random *random, int which, float *row) {
@@ -179,8 +180,8 @@ static void stacks_in_glsl_agree_with_c(void **state) {
     static const Model model = {
         .body = "    for (int c = 0; c < 4; c++) {\n" ROW(2) ROW(3) ROW(4) ROW(5) ROW(6) ROW(7) ROW(8) ROW(9) ROW(10)
             ROW(11) ROW(12) ROW(13) ROW(14) ROW(15) ROW(16) ROW(17) ROW(18) ROW(19) ROW(20) ROW(21) ROW(22) ROW(23)
-                ROW(24) ROW(25)
-                    ROW(26) "    }\n" ANGLES "    Stack m;\n    surface_stack(m, row_surface(), row_choices(), "
+                ROW(24) ROW(25) ROW(26) ROW(27)
+                    ROW(28) "    }\n" ANGLES "    Stack m;\n    surface_stack(m, row_surface(), row_choices(), "
                             "lobe_table_charlie_neubelt());\n    StackView w;\n    stack_view(m, o, w);\n"
                             "    Angles coat = angles_between(w.coat_o, stack_to_coat(m, a.i));\n"
                             "    StackValue v = stack_value(m, w, a, coat), t = stack_transmitted(m, w, a);\n"
