@@ -8,6 +8,7 @@
 #include "raster/frame/picture_block.h"
 #include "raster/frame/shader_keys.h"
 #include "raster/gl/gl_check.h"
+#include "scene/material/hair.h"
 
 /* Uploads `picture`, the uniform block that all shaders share, and binds it. */
 static void upload_picture(const WeftRaster *self, const Picture *picture) {
@@ -29,7 +30,8 @@ static void put_reference(const WeftRaster *self, Picture *out) {
     put_row(out->sky_color, e->color[0] * e->strength, e->color[1] * e->strength, e->color[2] * e->strength, 0.0f);
     put_row(out->sky_parts, e->ambient, e->reflection, 0.0f, 0.0f);
     put_row(out->ray_first, (float)rays->nodes, (float)rays->first[1], (float)rays->first[2], (float)rays->first[3]);
-    put_row(out->ray_count, (float)rays->emitters, (float)self->sums.done, (float)rays->first[4], 0.0f);
+    put_row(out->ray_count, (float)rays->emitters, (float)self->sums.done, (float)rays->first[4],
+            rays->hair_share > 1 ? 1.0f : 0.0f);
 }
 
 /* Fits the picture into the lower left of its shading points, whose squares of pixels may reach beyond its edges. */
@@ -40,6 +42,11 @@ static void fit_points(const Coarse *coarse, const WeftRasterView *view, float t
         to_clip[column] = x * to_clip[column] + (x - 1.0f) * to_clip[column + 3];
         to_clip[column + 1] = y * to_clip[column + 1] + (y - 1.0f) * to_clip[column + 3];
     }
+}
+
+/* Returns the width of a pixel where w is 1, m. */
+static float pixel_width(const float to_clip[16], int width) {
+    return 2.0f / ((float)width * vec3_length(vec3(to_clip[0], to_clip[4], to_clip[8])));
 }
 
 /* Fills that block for a view of the scene, uploads it and binds it. seen: with which camera. points: of its shading points,
@@ -54,6 +61,7 @@ static void upload_view(const WeftRaster *self, const View *seen, const WeftRast
     put_row(picture.coarse, is_coarse(view) && !self->summing ? (float)COARSE_SIDE : 1.0f, (float)view->shading_rate,
             0.0f, 0.0f);
     if (points) fit_points(&self->coarse, view, picture.to_clip);
+    picture.coarse[2] = pixel_width(picture.to_clip, points ? self->coarse.width : view->width);
     upload_picture(self, &picture);
 }
 
@@ -168,10 +176,11 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, int k, GLenum culled, Me
     glActiveTexture(GL_TEXTURE0); /* leaves unit 0 active, where code between draws binds the objects it makes */
     materials_bind(&self->materials, &self->textures, k, BLOCK_MATERIAL);
     glUniform1f(program->surface_number, (float)(k % 255 + 1));
+    if (hair_is_mesh(self->scene, mesh)) glUniform1f(program->hair_half, 0.5f * hair_thickness(self->scene, mesh));
     glUniform1f(program->least_opacity, pass == PASS_SOLID ? SOLID_OPACITY : 0.0f); /* without effect at -1 */
     if (culled != GL_NONE) {
         draw_side(self, mesh, culled);
-    } else if (material->key.double_sided && pass == PASS_BLENDED) {
+    } else if (material->key.double_sided && pass == PASS_BLENDED && !material->key.hairy) {
         draw_side(self, mesh, GL_FRONT);
         draw_side(self, mesh, GL_BACK);
     } else if (material->key.double_sided) {
@@ -199,7 +208,7 @@ static WeftResult compile_shaders(WeftRaster *self, const WeftRasterView *view, 
 static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
-        if (m >= scene_own_meshes(self->scene) && m < scene_light_meshes(self->scene)) continue;
+        if (hair_is_mesh(self->scene, m)) continue;
         const int k = self->scene->meshes[m].material;
         ShaderKey key = depth_key(&self->materials.all[k].key);
         result = draw_mesh(self, m, k, GL_NONE, PASS_SOLID, &key, error);
@@ -277,6 +286,7 @@ static bool takes_part(const WeftScene *scene, int mesh, MeshPass pass) {
     const Material *material = &scene->materials[m->material];
     const Input *opacity = &material->inputs[INPUT_opacity];
     bool solid = opacity->value[0] >= SOLID_OPACITY; /* maps, colours and gaps of cloth lower it */
+    if (hair_is_mesh(scene, mesh)) return true;
     return pass == PASS_SOLID ? solid : !solid || opacity->texture || m->color || material->cloth;
 }
 

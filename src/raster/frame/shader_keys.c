@@ -36,6 +36,7 @@ ShaderKey depth_key(const ShaderKey *key) {
 static ShaderKey resolve_key(const ShaderKey *key) {
     ShaderKey resolve = coverage_key(key);
     resolve.resolve = 1;
+    resolve.hairy = key->hairy;
     return resolve;
 }
 

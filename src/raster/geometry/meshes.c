@@ -1,14 +1,18 @@
 #include "raster/geometry/meshes.h"
 
+#include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/random.h"
 #include "image/half.h"
 #include "raster/geometry/occlusion.h"
 #include "raster/gl/gl_check.h"
+#include "scene/material/hair.h"
 
 static const int components[AT_COUNT] = {3, 3, 4, 2, 2, 4};
 
@@ -62,6 +66,69 @@ static WeftResult upload(const GlMeshes *self, const WeftScene *scene, int attri
     return gl_check(error, "vertices");
 }
 
+/* A vertex of hair: a unit vector from the middle of its fibre and a random number of the fibre, of SHRT_MAX; and the normal
+ * of the cloth, of CHAR_MAX. */
+typedef struct Across {
+    int16_t to[3], chance;
+    int8_t root[4];
+} Across;
+
+/* Returns the sum of a triangle's normals at its corners, or its own, as a unit vector. */
+static Vec3 normal_of(const Mesh *mesh, uint32_t triangle) {
+    const uint32_t *index = mesh->index + 3 * (size_t)triangle;
+    Vec3 corner[3], sum = {0.0f, 0.0f, 0.0f};
+    for (int k = 0; k < 3; k++) {
+        corner[k] = vec3_load(mesh->position + 3 * (size_t)index[k]);
+        if (mesh->normal) sum = vec3_add(sum, vec3_load(mesh->normal + 3 * (size_t)index[k]));
+    }
+    const Vec3 own = vec3_cross(vec3_sub(corner[1], corner[0]), vec3_sub(corner[2], corner[0]));
+    return vec3_normal_or(sum, vec3_normal_or(own, vec3(0.0f, 1.0f, 0.0f)));
+}
+
+static Across across_of(const Mesh *hair, uint32_t vertex, Vec3 root) {
+    const Vec3 to = vec3_scale(vec3_normal_or(hair_across(hair, vertex), vec3(0.0f, 0.0f, 0.0f)), 32767.0f);
+    const int16_t chance = (int16_t)(hash32(vertex / HAIR_VERTICES) & 0x7fff);
+    return (Across){
+        .to = {(int16_t)lrintf(to.x), (int16_t)lrintf(to.y), (int16_t)lrintf(to.z)},
+        .chance = chance,
+        .root = {(int8_t)lrintf(127.0f * root.x), (int8_t)lrintf(127.0f * root.y), (int8_t)lrintf(127.0f * root.z), 0}};
+}
+
+/* Fills the vertices of a mesh of hair. Returns false if memory is short. */
+static bool fill_across(const WeftScene *scene, int m, Across *to) {
+    const Mesh *hair = &scene->meshes[m], *cloth = &scene->meshes[scene->hairs[m - scene_own_meshes(scene)].mesh];
+    uint32_t *roots = alloc_array(hair->vertex_count / HAIR_VERTICES, sizeof *roots);
+    if (!roots) return false;
+    hair_roots(scene, m, roots);
+    for (uint32_t k = 0; k < hair->vertex_count; k++)
+        to[k] = across_of(hair, k, normal_of(cloth, roots[k / HAIR_VERTICES]));
+    free(roots);
+    return true;
+}
+
+/* Uploads the widths of the fibres of hair; other vertices have none. */
+static WeftResult upload_across(GlMeshes *self, const WeftScene *scene, WeftError *error) {
+    if (!scene->hair_count) return WEFT_OK;
+    Across *all = alloc_array(self->vertex_count, sizeof *all);
+    bool made = all != NULL;
+    size_t at = self->own_count;
+    for (int m = scene_own_meshes(scene); made && m < scene_light_meshes(scene); m++) {
+        made = fill_across(scene, m, all + at);
+        at += scene->meshes[m].vertex_count;
+    }
+    if (made) {
+        glGenBuffers(1, &self->across);
+        glBindBuffer(GL_ARRAY_BUFFER, self->across);
+        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(self->vertex_count * sizeof *all), all, GL_STATIC_DRAW);
+        glVertexAttribPointer(AT_ACROSS, 4, GL_SHORT, GL_TRUE, sizeof *all, NULL);
+        glVertexAttribPointer(AT_ROOT, 3, GL_BYTE, GL_TRUE, sizeof *all, (const void *)offsetof(Across, root));
+        glEnableVertexAttribArray(AT_ACROSS);
+        glEnableVertexAttribArray(AT_ROOT);
+    }
+    free(all);
+    return made ? gl_check(error, "hair") : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+}
+
 static WeftResult upload_indices(GlMeshes *self, const WeftScene *scene, WeftError *error) {
     uint32_t count = self->first[scene->mesh_count], vertex = 0;
     uint32_t *all = alloc_array(count, sizeof(uint32_t)), *to = all;
@@ -101,6 +168,7 @@ WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, G
     out->own_count = own_vertices(refinement, scene);
     WeftResult result = upload_indices(out, scene, error);
     for (int a = 0; a < AT_COUNT && result == WEFT_OK; a++) result = upload(out, scene, a, error);
+    if (result == WEFT_OK) result = upload_across(out, scene, error);
     glBindVertexArray(0);
     out->mesh_count = scene->mesh_count;
     out->own_meshes = scene_own_meshes(scene);
@@ -228,6 +296,7 @@ void meshes_destroy(GlMeshes *self) {
         glDeleteBuffers(AT_COUNT, self->attributes);
         glDeleteBuffers(1, &self->index);
         glDeleteBuffers(1, &self->occlusion);
+        glDeleteBuffers(1, &self->across);
     }
     free(self->first);
     *self = (GlMeshes){0};

@@ -13,14 +13,17 @@ enum {
     AT_TEXCOORD,
     AT_COLOR = AT_TEXCOORD + 2,
     AT_COUNT,
-    AT_OCCLUSION = AT_COUNT, /* not of a file: meshes_occlusion */
-    AT_OPEN,                 /* two */
-    AT_LIGHTS = AT_OPEN + 2  /* two */
+    AT_OCCLUSION = AT_COUNT,   /* not of a file: meshes_occlusion */
+    AT_OPEN,                   /* two */
+    AT_LIGHTS = AT_OPEN + 2,   /* two */
+    AT_ACROSS = AT_LIGHTS + 2, /* of hair, as the next */
+    AT_ROOT
 };
 
 typedef struct GlMeshes {
     unsigned vertices; /* vertex array object */
     unsigned attributes[AT_COUNT], index;
+    unsigned across;                  /* buffer for the vertices of all meshes, 0 without hair */
     unsigned occlusion;               /* buffer for the vertices of own meshes, 0 until there is one */
     bool env_lights;                  /* true if values for the environment's lights are there */
     uint32_t vertex_count, own_count; /* own: of the scene's own meshes, which come first */

@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "raster/gl/box.h"
+#include "scene/material/hair.h"
 
 static void measure(Queue *self, const WeftScene *scene, int m) {
     const Mesh *mesh = &scene->meshes[m];
@@ -13,7 +14,7 @@ static void measure(Queue *self, const WeftScene *scene, int m) {
 }
 
 static bool blends(const WeftScene *scene, int m) {
-    return scene->materials[scene->meshes[m].material].alpha_mode == WEFT_ALPHA_BLEND;
+    return hair_is_mesh(scene, m) || scene->materials[scene->meshes[m].material].alpha_mode == WEFT_ALPHA_BLEND;
 }
 
 WeftResult queue_create(const WeftScene *scene, Queue *out, WeftError *error) {

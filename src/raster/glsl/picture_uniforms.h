@@ -40,8 +40,9 @@
     ONE(vec4, sky_color)   /* radiance of one colour */                                                      \
     ONE(vec4, sky_parts)   /* factor on diffuse lobe and dust, on the other lobes */                         \
     ONE(vec4, ray_first)   /* number of nodes; first texel of triangles, normals, emitters */                   \
-    ONE(vec4, ray_count)   /* number of emitters, number of the frame, first texel of masks */                  \
+    ONE(vec4, ray_count)   /* number of emitters, of the frame; first texel of masks; 1: not all fibres of hair */  \
     ONE(vec4, coarse)         /* x: side of the square of pixels that share the points of a soft shadow; y: pixels along
-                                 the side of one that light is found for (coarse_guide.glsl) */            \
+                                 the side of one that light is found for (coarse_guide.glsl); z: width of a pixel
+                                 where w is 1, m */                                                            \
     ONE(vec4, texture_levels) /* x: 1 if textures have smaller copies, 0 if the middle of a pixel is meant */
 /* clang-format on */

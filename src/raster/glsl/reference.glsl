@@ -56,12 +56,20 @@ vec3 lift(RayTriangle t, RayHit hit, vec3 p, float side) {
     return p + sum + raise(p, t.c, side * ray_normal(hit.triangle, 2), hit.v);
 }
 
+/* True at a fibre of hair of which the rays' tree has not all. */
+#ifdef HAIRY
+#define FINER_THAN_RAYS (ray_count.w > 0.5)
+#else
+#define FINER_THAN_RAYS false
+#endif
+
 /* Finds the triangle of the fragment by a short ray through it, and sets normals and tangent of the side that is seen
  * and the place. */
 void find_place(vec3 wo, inout Facing at, inout Place place) {
     vec3 here = eye.xyz + from_eye;
     float reach = 1e-3 * max(length(from_eye), 1e-6);
-    RayHit hit = ray_trace(Ray(here + reach * wo, -wo, 0.0, 2.0 * reach), false, reach, 0u);
+    RayHit hit = RayHit(0.0, -1, 0.0, 0.0);
+    if (!FINER_THAN_RAYS) hit = ray_trace(Ray(here + reach * wo, -wo, 0.0, 2.0 * reach), false, reach, 0u);
     vec3 geometric = cross(dFdx(from_eye), dFdy(from_eye));
     RayTriangle t = ray_triangle(max(hit.triangle, 0));
     if (hit.triangle >= 0) geometric = cross(t.b - t.a, t.c - t.a);

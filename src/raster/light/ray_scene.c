@@ -10,6 +10,7 @@
 #include "raster/geometry/ray_tree.h"
 #include "raster/gl/gl_check.h"
 #include "raster/light/ray_albedos.h"
+#include "scene/material/hair.h"
 
 enum { NODES, TRIANGLES, NORMALS, EMITTERS, MASKS, KINDS };
 
@@ -18,24 +19,47 @@ typedef struct TrianglePlace {
     uint32_t mesh, triangle;
 } TrianglePlace;
 
-static uint32_t count_triangles(const WeftScene *scene) {
+/* Returns of how many fibres one is to be in the tree. */
+static uint32_t share_of(const WeftScene *scene) {
+    uint64_t fibres = 0;
+    for (int m = 0; m < scene->mesh_count; m++)
+        if (hair_is_mesh(scene, m)) fibres += scene->meshes[m].triangle_count / HAIR_TRIANGLES;
+    return (uint32_t)((fibres + RAY_FIBRES_MOST - 1) / RAY_FIBRES_MOST);
+}
+
+/* Returns how many triangles of a mesh are in the tree of one fibre in `share`. */
+static uint32_t kept_of(const WeftScene *scene, int m, uint32_t share) {
+    const uint32_t all = scene->meshes[m].triangle_count;
+    return share > 1 && hair_is_mesh(scene, m) ? HAIR_TRIANGLES * ((all / HAIR_TRIANGLES + share - 1) / share) : all;
+}
+
+/* Returns the number in its mesh of the k-th triangle of those in the tree. */
+static uint32_t kept_at(const WeftScene *scene, int m, uint32_t share, uint32_t k) {
+    return share > 1 && hair_is_mesh(scene, m) ? k / HAIR_TRIANGLES * share * HAIR_TRIANGLES + k % HAIR_TRIANGLES : k;
+}
+
+static uint32_t count_triangles(const WeftScene *scene, uint32_t share) {
     uint64_t count = 0;
-    for (int m = 0; m < scene->mesh_count; m++) count += scene->meshes[m].triangle_count;
+    for (int m = 0; m < scene->mesh_count; m++) count += kept_of(scene, m, share);
     return count < RAY_NUMBER_MOST ? (uint32_t)count : RAY_NUMBER_MOST;
 }
 
-static Vec3 corner_of(const Mesh *mesh, uint32_t triangle, int corner) {
-    return vec3_load(mesh->position + 3 * (size_t)mesh->index[3 * (size_t)triangle + (size_t)corner]);
+static Vec3 corner_of(const WeftScene *scene, int m, uint32_t share, uint32_t triangle, int corner) {
+    const Mesh *mesh = &scene->meshes[m];
+    const uint32_t vertex = mesh->index[3 * (size_t)triangle + (size_t)corner];
+    const Vec3 at = vec3_load(mesh->position + 3 * (size_t)vertex);
+    return share > 1 && hair_is_mesh(scene, m) ? vec3_madd(at, hair_across(mesh, vertex), (float)(share - 1)) : at;
 }
 
-static bool make_tree(RayTree *tree, const WeftScene *scene) {
-    const uint32_t count = count_triangles(scene);
+static bool make_tree(RayScene *self, RayTree *tree, const WeftScene *scene) {
+    const uint32_t share = self->hair_share = share_of(scene), count = count_triangles(scene, share);
     RayBox *boxes = alloc_array(count, sizeof *boxes), *to = boxes;
     if (!boxes) return false;
     for (int m = 0; m < scene->mesh_count; m++)
-        for (uint32_t t = 0; t < scene->meshes[m].triangle_count; t++) {
-            const Vec3 a = corner_of(&scene->meshes[m], t, 0), b = corner_of(&scene->meshes[m], t, 1),
-                       c = corner_of(&scene->meshes[m], t, 2);
+        for (uint32_t k = 0; k < kept_of(scene, m, share); k++) {
+            const uint32_t t = kept_at(scene, m, share, k);
+            const Vec3 a = corner_of(scene, m, share, t, 0), b = corner_of(scene, m, share, t, 1),
+                       c = corner_of(scene, m, share, t, 2);
             *to++ = (RayBox){vec3_least(a, vec3_least(b, c)), vec3_most(a, vec3_most(b, c))};
         }
     const bool made = ray_tree_make(tree, boxes, count);
@@ -46,15 +70,15 @@ static bool make_tree(RayTree *tree, const WeftScene *scene) {
 static void put(float *texel, Vec3 v, float w) { texel[0] = v.x, texel[1] = v.y, texel[2] = v.z, texel[3] = w; }
 
 /* Puts a triangle into the texture. albedos is NULL where nothing bounces. */
-static void put_triangle(const WeftScene *scene, const RayAlbedo *albedos, TrianglePlace at, float *triangle,
-                         float *normals) {
+static void put_triangle(const RayScene *self, const WeftScene *scene, const RayAlbedo *albedos, TrianglePlace at,
+                         float *triangle, float *normals) {
     const Mesh *mesh = &scene->meshes[at.mesh];
     const float side = scene->materials[mesh->material].double_sided ? 0.0f : 4.0f;
     const float last[3] = {side + ray_masks_mean(scene, mesh, at.triangle), 0.0f, 0.0f};
     float albedo[3] = {0.0f, 0.0f, 0.0f};
     if (albedos) ray_albedos_triangle(albedos, scene, mesh, at.triangle, albedo);
     for (int k = 0; k < 3; k++) {
-        put(triangle + 4 * k, corner_of(mesh, at.triangle, k), last[k]);
+        put(triangle + 4 * k, corner_of(scene, (int)at.mesh, self->hair_share, at.triangle, k), last[k]);
         const uint32_t vertex = mesh->index[3 * (size_t)at.triangle + (size_t)k];
         const Vec3 none = {0.0f, 0.0f, 0.0f};
         put(normals + 4 * k, mesh->normal ? vec3_load(mesh->normal + 3 * (size_t)vertex) : none, albedo[k]);
@@ -62,10 +86,12 @@ static void put_triangle(const WeftScene *scene, const RayAlbedo *albedos, Trian
 }
 
 /* Returns the place of each triangle in the order of the meshes; NULL if memory is short. */
-static TrianglePlace *find_places(const WeftScene *scene, uint32_t count) {
-    TrianglePlace *places = alloc_array(count, sizeof *places), *to = places;
+static TrianglePlace *find_places(const RayScene *self, const RayTree *tree, const WeftScene *scene) {
+    const uint32_t share = self->hair_share;
+    TrianglePlace *places = alloc_array(tree->count, sizeof *places), *to = places;
     for (int m = 0; places && m < scene->mesh_count; m++)
-        for (uint32_t t = 0; t < scene->meshes[m].triangle_count; t++) *to++ = (TrianglePlace){(uint32_t)m, t};
+        for (uint32_t k = 0; k < kept_of(scene, m, share); k++)
+            *to++ = (TrianglePlace){(uint32_t)m, kept_at(scene, m, share, k)};
     return places;
 }
 
@@ -74,8 +100,8 @@ static bool put_emitters(const RayScene *self, const WeftScene *scene, const Ray
                          float *texels) {
     uint32_t *first = alloc_array((size_t)scene->mesh_count, sizeof *first), count = 0;
     for (int m = 0; first && m < scene->mesh_count; m++) {
-        first[m] = count;
-        count += scene->meshes[m].triangle_count;
+        first[m] = count; /* hair does not emit */
+        count += kept_of(scene, m, self->hair_share);
     }
     for (int k = 0; first && k < emitters->count; k++) {
         const RayEmitter *emitter = &emitters->all[k];
@@ -106,7 +132,7 @@ static size_t count_masks(const RayScene *self, const WeftScene *scene) {
 static bool fill(const RayScene *self, const RayTree *tree, const WeftScene *scene, const SheenTables *sheens,
                  const RayEmitters *emitters, float *texels) {
     RayAlbedo *albedos = sheens ? ray_albedos_make(scene, sheens) : NULL;
-    TrianglePlace *places = find_places(scene, tree->count);
+    TrianglePlace *places = find_places(self, tree, scene);
     uint32_t *at = alloc_array(tree->count, sizeof *at);
     const bool made = places && at && (albedos || !sheens);
     size_t masks = 0;
@@ -115,7 +141,8 @@ static bool fill(const RayScene *self, const RayTree *tree, const WeftScene *sce
         const TrianglePlace place = places[tree->order[k]];
         float *triangle = texels + 4 * ((size_t)self->first[TRIANGLES] + 3 * (size_t)k);
         at[tree->order[k]] = k;
-        put_triangle(scene, albedos, place, triangle, texels + 4 * ((size_t)self->first[NORMALS] + 3 * (size_t)k));
+        put_triangle(self, scene, albedos, place, triangle,
+                     texels + 4 * ((size_t)self->first[NORMALS] + 3 * (size_t)k));
         if (ray_masks_triangle(&self->masks, scene, &scene->meshes[place.mesh], place.triangle,
                                texels + 4 * ((size_t)self->first[MASKS] + 3 * masks)))
             triangle[11] = (float)++masks;
@@ -175,12 +202,12 @@ static WeftResult fill_texture(RayScene *self, const RayTree *tree, const WeftSc
 WeftResult ray_scene_make(RayScene *self, const WeftScene *scene, const SheenTables *sheens, WeftError *error) {
     RayTree tree = {0}; /* only the texture keeps it */
     if (self->filled && (self->bounces || !sheens) && self->shape_version == scene->shape_version) return WEFT_OK;
-    if (count_triangles(scene) >= RAY_NUMBER_MOST / 2)
+    if (count_triangles(scene, share_of(scene)) >= RAY_NUMBER_MOST / 2)
         return fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name, "too many triangles to trace rays in a shader");
     WeftResult result = ray_masks_make(&self->masks, scene, error);
     if (result != WEFT_OK) return result;
-    result = make_tree(&tree, scene) ? fill_texture(self, &tree, scene, sheens, error)
-                                     : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    result = make_tree(self, &tree, scene) ? fill_texture(self, &tree, scene, sheens, error)
+                                           : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     ray_tree_free(&tree);
     return result;
 }

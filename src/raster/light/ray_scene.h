@@ -11,7 +11,9 @@
  *   masks      three each: the numbers of ray_masks.h
  *
  * A surface is its opacity, plus 4 if it has only a front side. Departures: gaps of a woven cloth and alphas of vertex
- * colours count with their mean over a triangle without a map of opacity.
+ * colours count with their mean over a triangle without a map of opacity. Of hair of more than RAY_FIBRES_MOST fibres there
+ * is one fibre in `hair_share`, as many times as wide, which hides as much of the light on the mean: Robert L. Cook, John
+ * Halstead, Maxwell Planck, David Ryu, "Stochastic Simplification of Aggregate Detail", SIGGRAPH 2007.
  *
  * All calls are for the context that is current. */
 #pragma once
@@ -22,11 +24,12 @@
 #include "raster/light/ray_masks.h"
 #include "scene/light/sheen_tables.h"
 
-enum { RAY_ROW = 2048 };
+enum { RAY_ROW = 2048, RAY_FIBRES_MOST = 400000 };
 
 typedef struct RayScene {
     unsigned shape_version; /* of the triangles, as in WeftScene */
     uint32_t nodes;         /* of the tree over them */
+    uint32_t hair_share;    /* the tree has one fibre of so many */
     bool filled;            /* the texture has the scene as it is; set it to false when materials change */
     bool bounces;           /* the texture has what triangles send back */
     unsigned texture;       /* 0: none */

@@ -11,6 +11,7 @@
 #include "raster/material/families.h"
 #include "raster/material/programs.h"
 #include "scene/light/polygons.h"
+#include "scene/material/hair.h"
 #include "scene/record/material_at.h"
 #include "shading/weave/weave_base.h"
 #include "weave/weft_cloth.h"
@@ -169,6 +170,7 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
         if (material->used) {
             material->emits = material_emits(&scene->materials[k]);
             make_material(material, &scene->materials[k], textures, &uniforms);
+            material->key.hairy = hair_is_material(scene, k);
             material->key.ranged = self->count > MATERIALS_BAKED && is_isotropic(&material->key);
             add_table(material, sheen_tables_of(self->sheens, k), sheen_tables_index(self->sheens, k), &uniforms);
             material->cloth = scene->materials[k].cloth;

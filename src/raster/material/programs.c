@@ -36,6 +36,7 @@ static void set_units(Program *self) {
     glUseProgram(self->name);
     self->samplers = 0;
     self->least_opacity = glGetUniformLocation(self->name, "least_opacity");
+    self->hair_half = glGetUniformLocation(self->name, "hair_half");
     self->surface_number = glGetUniformLocation(self->name, "surface_number");
     if (maps >= 0) {
         GLuint index;

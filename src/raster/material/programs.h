@@ -38,6 +38,7 @@ typedef struct Program {
     unsigned sheens_version; /* of the sheens' tables behind its own */
     int samplers;            /* array elements counted one by one */
     int least_opacity;       /* location of forward.glsl's uniform; -1 where the material does not blend */
+    int hair_half;           /* location of vertex.glsl's uniform, or -1 */
     int surface_number;      /* location of a uniform of forward.glsl and resolve.glsl, or -1 */
     bool stale;              /* true if the text may have changed */
     bool wanted;             /* and it is to be compiled */

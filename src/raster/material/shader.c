@@ -168,6 +168,9 @@ static void put_input(Text *text, const ShaderKey *key, int k) {
     }
 }
 
+/* Returns true if fibres are widened; in a sum of frames they are as they are. */
+static bool blends_hair(const ShaderKey *key) { return key->hairy && !key->reference; }
+
 static void put_surface(Text *text, const ShaderKey *key) {
     text_include(text, "shading/dialect/texel.h");
     if (key->colored) text_line(text, "\nin highp vec4 vertex_color;");
@@ -184,9 +187,11 @@ static void put_surface(Text *text, const ShaderKey *key) {
     static const char *const coverage[] = {[WEFT_ALPHA_OPAQUE] = "1.0",
                                            [WEFT_ALPHA_MASK] = "opacity < material_more[0].x ? 0.0 : 1.0",
                                            [WEFT_ALPHA_BLEND] = "clamp(opacity, 0.0, 1.0)"};
-    text_line(text, "\nfloat coverage_of(float opacity) { return %s; }", coverage[key->alpha_mode]);
+    if (blends_hair(key)) text_line(text, "\nin highp float hair_covers;");
+    text_line(text, "\nfloat coverage_of(float opacity) { return %s; }",
+              blends_hair(key) ? "clamp(hair_covers, 0.0, 1.0)" : coverage[key->alpha_mode]);
     if (key->alpha_mode == WEFT_ALPHA_MASK) text_define(text, "MASKED", "1");
-    if (key->alpha_mode == WEFT_ALPHA_BLEND) text_define(text, "BLENDED", "1");
+    if (key->alpha_mode == WEFT_ALPHA_BLEND || blends_hair(key)) text_define(text, "BLENDED", "1");
 }
 
 /* Writes the look-up of the slopes of a normal map about their mean. Their first level is material.y levels coarser than
@@ -346,7 +351,7 @@ static void coverage_text(const ShaderKey *key, Text *text) {
         define_weave(text);
         text_include(text, "raster/glsl/weave_cloth.glsl");
     }
-    bool blended = key->resolve && key->alpha_mode == WEFT_ALPHA_BLEND;
+    bool blended = key->resolve && (key->alpha_mode == WEFT_ALPHA_BLEND || blends_hair(key));
     if (blended) text_line(text, "uniform highp float least_opacity;");
     text_line(text, "\nbool covered() { return coverage_of(material_surface().opacity) >= %s%s; }",
               blended ? "least_opacity" : "0.5", key->woven ? " && !weave_is_gap()" : "");
@@ -461,6 +466,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
         text_define(text, "WOVEN", "1");
         define_weave(text);
     }
+    if (key->hairy) text_define(text, "HAIRY", "1");
     if (key->coarse) text_define(text, "COARSE", "1");
     part_text(key->part, text);
     put_lights(text, key);
@@ -482,6 +488,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
 void shader_vertex_text(const ShaderKey *key, const TextDesc *desc, Text *text) {
     text_begin(text, &(TextDesc){.language = desc->language, .folder = desc->folder});
     if (key->shadowed && !key->floor) text_define(text, "SHADOWED", "1");
+    if (blends_hair(key)) text_define(text, "HAIRY", "1");
     text_include(text, key->floor ? "raster/glsl/floor_vertex.glsl" : "raster/glsl/vertex.glsl");
 }
 

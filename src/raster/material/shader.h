@@ -51,7 +51,8 @@ typedef struct ShaderKey {
     int16_t polygon_corners[SHADER_LIGHTS], polygon_two_sided[SHADER_LIGHTS], polygon_map[SHADER_LIGHTS];
     int part; /* WeftPart */
     int alpha_mode, unlit, double_sided, colored;
-    int woven;                                              /* 1: a cloth is in the place of the base */
+    int hairy; /* 1: fibres of hair, widened to a pixel and blended (glsl/vertex.glsl) */
+    int woven; /* 1: a cloth is in the place of the base */
     int table_kind, table_rows, table_columns, table_tilts; /* of the sheen's E */
 } ShaderKey;
 

@@ -17,7 +17,8 @@ typedef struct Growth {
     const WeftScene *scene;
     const Mesh *on;
     const Material *material;
-    Mesh *mesh;       /* has room for `most` fibres */
+    Mesh *mesh;       /* has room for all fibres; NULL where only their roots are asked for */
+    uint32_t *roots;  /* the triangles that fibres stand on, one after the other, or NULL */
     uint64_t numbers; /* the stream of random numbers */
 } Growth;
 
@@ -84,6 +85,7 @@ static Root draw_root(Growth *growth, const uint32_t *index) {
 /* Writes a vertex of a fibre, and returns its number. */
 static uint32_t put_vertex(const Growth *growth, Vec3 point, Vec3 normal, const Root *root) {
     Mesh *mesh = growth->mesh;
+    if (!mesh) return 0;
     const size_t k = mesh->vertex_count;
     memcpy(mesh->position + 3 * k, &point, sizeof point);
     memcpy(mesh->normal + 3 * k, &normal, sizeof normal);
@@ -94,6 +96,7 @@ static uint32_t put_vertex(const Growth *growth, Vec3 point, Vec3 normal, const 
 }
 
 static void put_triangle(const Growth *growth, uint32_t a, uint32_t b, uint32_t c) {
+    if (!growth->mesh) return;
     uint32_t *index = growth->mesh->index + 3 * (size_t)growth->mesh->triangle_count++;
     index[0] = a, index[1] = b, index[2] = c;
 }
@@ -101,6 +104,13 @@ static void put_triangle(const Growth *growth, uint32_t a, uint32_t b, uint32_t 
 /* Returns `a` without its part along a unit vector, as a unit vector. */
 static Vec3 across_of(Vec3 a, Vec3 along) {
     return vec3_normal_or(vec3_madd(a, along, -vec3_dot(a, along)), vec3(0.0f, 0.0f, 0.0f));
+}
+
+Vec3 hair_across(const Mesh *hair, uint32_t vertex) {
+    const uint32_t of_fibre = vertex % HAIR_VERTICES, beside = vertex - of_fibre + (of_fibre ^ 1u);
+    if (of_fibre == HAIR_VERTICES - 1) return vec3(0.0f, 0.0f, 0.0f);
+    const Vec3 here = vec3_load(hair->position + 3 * (size_t)vertex);
+    return vec3_scale(vec3_sub(here, vec3_load(hair->position + 3 * (size_t)beside)), 0.5f);
 }
 
 /* Grows a fibre at a root. */
@@ -138,8 +148,16 @@ static void grow_triangle(Growth *growth, uint32_t triangle) {
     for (uint32_t k = 0; k < count; k++) {
         Root root = draw_root(growth, growth->on->index + 3 * (size_t)triangle);
         if (draw(growth) >= material_opacity(growth->scene, growth->material, root.uv, root.color[3])) continue;
-        color_root(growth, &root);
+        if (growth->roots) *growth->roots++ = triangle;
+        if (growth->mesh) color_root(growth, &root);
         grow_fibre(growth, &root);
+    }
+}
+
+static void grow_triangles(Growth *growth, int m) {
+    for (uint32_t k = 0; k < growth->on->triangle_count; k++) {
+        growth->numbers = stream_start((uint64_t)m, k);
+        grow_triangle(growth, k);
     }
 }
 
@@ -172,11 +190,15 @@ static bool grow(const WeftScene *scene, int m, Mesh *out) {
     for (uint32_t k = 0; k < on->triangle_count; k++) most += (size_t)expected(on, material, k) + 1;
     *out = (Mesh){.name = on->name};
     if (!mesh_reserve(out, on, on->color || material->cloth, most)) return false;
-    for (uint32_t k = 0; k < on->triangle_count; k++) {
-        growth.numbers = stream_start((uint64_t)m, k);
-        grow_triangle(&growth, k);
-    }
+    grow_triangles(&growth, m);
     return true;
+}
+
+void hair_roots(const WeftScene *scene, int mesh, uint32_t *roots) {
+    const int m = scene->hairs[mesh - scene_own_meshes(scene)].mesh;
+    const Mesh *on = &scene->meshes[m];
+    Growth growth = {.scene = scene, .on = on, .material = &scene->materials[on->material], .roots = roots};
+    grow_triangles(&growth, m);
 }
 
 /* Returns the material of the hair of a cloth. */

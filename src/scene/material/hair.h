@@ -17,6 +17,25 @@ enum { HAIRS_MOST = 4000000 };
 /* The triangles and the vertices of a fibre: two at its root, two at its joint, and its tip. */
 enum { HAIR_TRIANGLES = 3, HAIR_VERTICES = 5 };
 
+/* Returns true if a mesh of the scene, or a material, is that of hair. */
+static inline bool hair_is_mesh(const WeftScene *scene, int mesh) {
+    return mesh >= scene_own_meshes(scene) && mesh < scene_light_meshes(scene);
+}
+static inline bool hair_is_material(const WeftScene *scene, int material) {
+    return material >= scene_own_materials(scene) && material < scene_light_materials(scene);
+}
+
+/* Returns the width of the fibres of a mesh of hair, m. */
+static inline float hair_thickness(const WeftScene *scene, int mesh) {
+    return scene->hairs[mesh - scene_own_meshes(scene)].numbers[WEFT_HAIR_THICKNESS];
+}
+
+/* Finds again the triangle of its cloth that each fibre of a mesh of hair stands on. */
+void hair_roots(const WeftScene *scene, int mesh, uint32_t *roots);
+
+/* Returns the vector from the middle of a fibre to one of its vertices, half as long as the fibre is wide; 0 at its tip. */
+Vec3 hair_across(const Mesh *hair, uint32_t vertex);
+
 /* Grows the hair that materials ask for where it is not there yet, drops what none asks for, and gives all hair the present
  * materials of its cloth. Call it when materials, or the meshes that have them, have changed. Fails with
  * WEFT_MESSAGE_PARAM_VALUE beyond HAIRS_MOST, or _MEMORY; hair is then as it was. */
