@@ -10,7 +10,8 @@ the memory that is resident meanwhile.
   bench/view.py --switches 200 [PROGRAM]
 
 With --memory it opens both built-in scenes with each sheen lobe, or those named, and prints the memory that is resident
-at rest and at most: where the driver compiles the shaders, and where it has them in its cache.
+at rest and at most: where the driver compiles the shaders, and where it has them in its cache; and there while frames add
+up.
 
   bench/view.py --memory all [PROGRAM]
 """
@@ -130,10 +131,15 @@ def print_switches(environment, unseen):
           f"{memory[-1]:.0f} at the end, {memory[0]:.0f} at the start")
 
 
-def memory_of(scene_name, lobe, environment, unseen):
-    """MiB that are resident once the window has been at rest for two seconds, and the most until then."""
+def opening(scene_name, lobe):
     command = [program, "view", "builtin:" + scene_name, "--forget", "--json", "--width", "1280", "--height", "720"]
-    command += ["--windowless"] * unseen + (["--sheen", lobe] if lobe else [])
+    return command + (["--sheen", lobe] if lobe else [])
+
+
+def memory_of(scene_name, lobe, environment, unseen):
+    """MiB that are resident once the window has been at rest for two seconds without frames that add up, and the most
+    until then."""
+    command = opening(scene_name, lobe) + ["--accumulate", "0"] + ["--windowless"] * unseen
     process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE)
     for line in process.stdout:
         if json.loads(line)["rest"]:
@@ -145,18 +151,27 @@ def memory_of(scene_name, lobe, environment, unseen):
     return [int(status[key].split()[0]) / 1024.0 for key in ("VmRSS", "VmHWM")]
 
 
+def memory_of_sum(scene_name, lobe, environment, unseen):
+    """MiB that are resident after three frames have been added up."""
+    lines = ["wait rest", "wait summed 3", "wait 3"]
+    return replay(lines, environment, unseen, opening(scene_name, lobe) + ["--accumulate", "256"])[-1]["resident_mib"]
+
+
 def print_memory(environment, unseen):
     models = subprocess.run([program, "models", "lobe:", "--json"], stdout=subprocess.PIPE, check=True).stdout
     lobes = [lobe["id"] for lobe in json.loads(models) if not {"diffuse", "reference"} & set(lobe["traits"])]
     lobes = [""] + (lobes if arguments.memory == "all" else arguments.memory.split(","))
     compiled = dict(environment, MESA_SHADER_CACHE_DISABLE="true")
-    print("MiB resident       sheen                          compiled:  at rest  at most   cached:  at rest  at most")
+    print("MiB resident       sheen                          compiled:  at rest  at most   cached:  at rest  at most  "
+          "adding up")
     for name in ("cloth", "sewing"):
         for lobe in lobes:
             numbers = memory_of(name, lobe, compiled, unseen)
             memory_of(name, lobe, environment, unseen) # fills the cache
             numbers += memory_of(name, lobe, environment, unseen)
-            print("builtin:{:10} {:40} {:8.0f} {:8.0f} {:17.0f} {:8.0f}".format(name, lobe or "its own", *numbers), flush=True)
+            numbers += [memory_of_sum(name, lobe, environment, unseen)]
+            print("builtin:{:10} {:40} {:8.0f} {:8.0f} {:17.0f} {:8.0f} {:10.0f}".format(name, lobe or "its own", *numbers),
+                  flush=True)
 
 
 server, environment = display()
