@@ -59,7 +59,7 @@ static void upload_view(const WeftRaster *self, const View *seen, const WeftRast
     put_reference(self, &picture);
     picture.texture_levels[0] = view->plain_textures ? 0.0f : 1.0f;
     put_row(picture.coarse, is_coarse(view) && !self->summing ? (float)COARSE_SIDE : 1.0f, (float)view->shading_rate,
-            0.0f, 0.0f);
+            0.0f, points ? 2.0f : 1.0f);
     if (points) fit_points(&self->coarse, view, picture.to_clip);
     picture.coarse[2] = pixel_width(picture.to_clip, points ? self->coarse.width : view->width);
     upload_picture(self, &picture);

@@ -69,7 +69,8 @@ static void put_polygon(const LightPolygon *polygon, int k, Picture *out) {
         memcpy(out->polygon_corners[PICTURE_CORNERS * k + j], corner, sizeof corner);
     }
     for (int j = 0; j < POLYGON_POINTS; j++) {
-        const Vec3 p = shadow_point_on(polygon, j % 2 ? 0.75f : 0.25f, j / 2 ? 0.75f : 0.25f);
+        const bool right = j == 1 || j == 2, top = j % 2 != 0; /* points 0 and 1 lie on a diagonal, and 2 and 3 */
+        const Vec3 p = shadow_point_on(polygon, right ? 0.75f : 0.25f, top ? 0.75f : 0.25f);
         const float point[4] = {p.x, p.y, p.z, polygon->area / POLYGON_POINTS};
         memcpy(out->polygon_points[POLYGON_POINTS * k + j], point, sizeof point);
     }

@@ -43,6 +43,6 @@
     ONE(vec4, ray_count)   /* number of emitters, of the frame; first texel of masks; 1: not all fibres of hair */  \
     ONE(vec4, coarse)         /* x: side of the square of pixels that share the points of a soft shadow; y: pixels along
                                  the side of one that light is found for (coarse_guide.glsl); z: width of a pixel
-                                 where w is 1, m */                                                            \
+                                 where w is 1, m; w: one of so many points of a soft shadow is used */         \
     ONE(vec4, texture_levels) /* x: 1 if textures have smaller copies, 0 if the middle of a pixel is meant */
 /* clang-format on */

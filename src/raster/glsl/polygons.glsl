@@ -27,14 +27,14 @@ PolygonReach polygon_reach(bool transmits, Facing at) {
 }
 
 #ifdef COARSE
-/* Returns the light of all polygons: that of POLYGON_POINTS points on each, the same for all pixels. Adds it to that of the
- * pixel. polygon_normals.w: 1 if both sides emit, else 0. */
+/* Returns the light of all polygons: that of some points on each, the same for all pixels. Adds it to that of the pixel. polygon_normals.w: 1 if both sides emit, else 0. */
 Rgb polygon_light(Stack m, StackView w, PolygonReach reach, Frame f) {
     vec3 here = eye.xyz + from_eye;
     Rgb sum = rgb_grey(0.0);
     for (int k = 0; k < POLYGONS; k++) {
-        for (int j = 0; j < POLYGON_POINTS; j++) {
-            vec4 point = polygon_points[POLYGON_POINTS * k + j], normal = polygon_normals[k];
+        for (int j = 0; j < polygons_number; j++) {
+            vec4 point = polygon_points[POLYGON_POINTS * k + polygons_first + j], normal = polygon_normals[k];
+            point.w *= float(POLYGON_POINTS) / float(polygons_number);
             vec3 to = point.xyz - here;
             float d2 = max(dot(to, to), point.w), r = inversesqrt(d2), cosine = -r * dot(normal.xyz, to);
             vec3 c = polygon_radiance[k].rgb * (point.w / d2 * max(cosine, -cosine * normal.w));

@@ -10,27 +10,35 @@ uniform highp sampler2D coarse_light;
 uniform highp float surface_number;
 out highp vec4 fragment;
 
-/* Adds the light of a point. fits: how well it fits if it is of the same surface. */
-void add_point(ivec2 place, float fits, float depth, inout vec4 sum) {
-    vec4 point = texelFetch(coarse_light, clamp(place, ivec2(0), textureSize(coarse_light, 0) - 1), 0);
-    float number = floor(point.a / 65536.0), off = abs(point.a - 65536.0 * number - coarse_steps(depth));
-    float same = fits * max(1.0 - 0.0085 * off, 0.0) + 1e-4, there = number > 0.0 ? 1e-9 : 0.0;
-    sum += vec4(point.rgb, 1.0) * (number == surface_number ? same : there);
+const float STEPS = 2048.0 / 0.693147; /* of coarse_steps, for a factor of e */
+
+/* Adds the light of a point. fits: how well it fits if it is of the same surface; guide: that of the plane there, as
+ * coarse_packed has it. Guides of two surfaces are further apart than depths are. */
+void add_point(int x, int y, float fits, float guide, inout vec4 sum) {
+    vec4 point = texelFetch(coarse_light, ivec2(x, y), 0);
+    float off = abs(point.a - guide), same = fits * max(1.0 - 0.0085 * off, 0.0) + 1e-4;
+    sum += vec4(point.rgb, 1.0) * (off < 32768.0 ? same : min(point.a, 1e-9));
 }
 
+/* Returns ln(1 + x) within 1 % for x from -0.4 to 0.6. */
+float log_1_and(float x) { return x / (1.0 + 0.5 * max(x, -1.0)); }
+
 void main() {
-    float depth = coarse_depth();
+    float depth = coarse_depth(), guide = 65536.0 * surface_number + coarse_steps(depth);
     vec2 at = gl_FragCoord.xy / coarse.y - 0.5, corner = floor(at), part = at - corner;
-    vec2 slope = coarse.y * vec2(dFdx(depth), dFdy(depth));
-    ivec2 first = ivec2(corner);
+    vec2 slope = coarse.y / depth * vec2(dFdx(depth), dFdy(depth));
+    float here = dot(slope, part);
+    ivec2 last = textureSize(coarse_light, 0) - 1, low = max(ivec2(corner), ivec2(0)), high = min(ivec2(corner) + 1, last);
     vec4 sum = vec4(0.0);
-    for (int k = 0; k < 4; k++) {
-        ivec2 by = ivec2(k & 1, k >> 1);
-        vec2 near = 1.0 - abs(vec2(by) - part);
-        add_point(first + by, near.x * near.y, depth + dot(slope, vec2(by) - part), sum);
-    }
+    add_point(low.x, low.y, (1.0 - part.x) * (1.0 - part.y), guide + STEPS * log_1_and(-here), sum);
+    add_point(high.x, low.y, part.x * (1.0 - part.y), guide + STEPS * log_1_and(slope.x - here), sum);
+    add_point(low.x, high.y, (1.0 - part.x) * part.y, guide + STEPS * log_1_and(slope.y - here), sum);
+    add_point(high.x, high.y, part.x * part.y, guide + STEPS * log_1_and(slope.x + slope.y - here), sum);
     int more = sum.a < 1e-4 ? 16 : 0;
-    for (int k = 0; k < more; k++) add_point(first + ivec2(k & 3, k >> 2) - 1, 0.0, depth, sum);
+    for (int k = 0; k < more; k++) {
+        ivec2 place = clamp(ivec2(corner) + ivec2(k & 3, k >> 2) - 1, ivec2(0), last);
+        add_point(place.x, place.y, 0.0, guide, sum);
+    }
     fragment = vec4(sum.rgb / max(sum.a, 1e-12), 1.0);
     if (!covered()) discard;
 }

@@ -4,8 +4,8 @@
  * with d from here to the point and the normals n here and l there. The light without shadows is multiplied by it. Eric
  * Heitz, Stephen Hill and Morgan McGuire, "Combining Analytic Direct Illumination and Stochastic Shadows", I3D 2018.
  *
- * While the camera moves, the pixels of a square share the points, each a part of them, and coarse_filter.glsl takes the
- * mean: Alexander Keller, Wolfgang Heidrich, "Interleaved Sampling", Rendering Techniques 2001. */
+ * While the camera moves, the pixels of a square share every other point, each a part of them, and coarse_filter.glsl takes
+ * the mean: Alexander Keller, Wolfgang Heidrich, "Interleaved Sampling", Rendering Techniques 2001. */
 #include "raster/glsl/picture.glsl"
 
 uniform highp sampler2DArrayShadow soft_map;
@@ -25,8 +25,9 @@ float soft_shadow(int map, vec3 place, vec3 normal, vec3 light_normal) {
     vec3 n = scale * vec3(dot(x, normal), dot(y, normal), dot(z, normal));
     vec3 l = scale * vec3(dot(x, light_normal), dot(y, light_normal), dot(z, light_normal));
     float a = dot(vec3(m[0].z, m[1].z, m[2].z), z), b = m[3].z, sum = 0.0, all = 0.0;
-    int side = int(coarse.x), first = int(gl_FragCoord.x) % side + side * (int(gl_FragCoord.y) % side);
-    for (int k = first; k < SHADOW_POINTS; k += side * side) {
+    int side = int(coarse.x), every = int(coarse.w);
+    int first = int(gl_FragCoord.x) % side + side * (int(gl_FragCoord.y) % side);
+    for (int k = every * first; k < SHADOW_POINTS; k += every * side * side) {
         vec4 o = shadow_points[SHADOW_POINTS * map + k];
         vec3 to = o.xyz - q;
         float d2 = dot(scale * to, to), weight = max(dot(n, to), 0.0) * abs(dot(l, to)) / max(d2 * d2, 1e-24);

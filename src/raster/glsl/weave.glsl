@@ -9,11 +9,19 @@
 #include "raster/glsl/weave_far.glsl"
 #include "shading/weave/weave_base.h"
 
+#ifdef COARSE
+#include "raster/glsl/weave_motion.glsl"
+#else
+WovenPrepared pixel_afar(bool weft) { return woven_afar(weft); }
+
+float pixel_far(WeaveFootprint f) { return weave_far_weight(f); }
+
 /* Returns the number of points of a pixel: enough that pixels vary at most a quarter more than their true means do. */
 int pixel_points(WeaveFootprint f, float far) {
     int few = f.longest < 0.14 ? 1 : f.longest < 0.45 ? 2 : 3;
     return far >= 1.0 ? 0 : f.longest < 0.65 || far > 0.5 ? few : 5;
 }
+#endif
 
 /* Returns three numbers from -1 to 1 that are random from pixel to pixel. */
 vec3 pixel_random() {
@@ -92,7 +100,7 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion, float 
     vec2 place = weave_place();
     vec2 across = dFdx(place), up = dFdy(place);
     WeaveFootprint f = weave_footprint(across.x, across.y, up.x, up.y);
-    float far = weave_far_weight(f);
+    float far = pixel_far(f);
     int points = pixel_points(f, far), systems = far > 0.0 ? 2 : 0;
     vec3 random = pixel_random();
     StackView w;
@@ -121,9 +129,11 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion, float 
         WeaveBase b = woven_far(c, k > 0, place, across, up, f, wear);
 #ifdef COARSE
         polygons_weight = 0.5 * far;
+        polygons_first = k * (POLYGON_POINTS / 2);
+        polygons_number = POLYGON_POINTS / 2;
 #endif
         Stack n = woven_stack(m, b);
-        n.diffuse_prepared.woven = woven_afar(k > 0);
+        n.diffuse_prepared.woven = pixel_afar(k > 0);
         woven_add(sum, n, w, b, 0.5 * far, reach, at, frame);
     }
     if (MATERIAL_HOLED) {

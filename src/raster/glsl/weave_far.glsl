@@ -11,16 +11,22 @@ vec2 pixel_point(int k, int n) {
     return vec2(x, y) / float(n) - vec2(0.5, 0.5 + floor(y / float(n)));
 }
 
+#ifdef COARSE
+const float FAR_TEXELS = 1.0; /* along the side of a pixel */
+#else
+const float FAR_TEXELS = 2.0;
+#endif
+
 /* Returns one system from afar. Its colours are the mean over five texels half a pixel wide: a level of texels as wide
- * as the pixel would blur neighbours that the picture still resolves. On the last level, one texel, one is enough. Two
- * bases stand for the cloth, each with half of the weight, so each reflects twice as much. Then one table for the light
- * of the environment, made for a whole cloth, serves all bases. */
+ * as the pixel would blur neighbours that the picture still resolves. In motion one is enough, and on the last level, one
+ * texel. Two bases stand for the cloth, each with half of the weight, so each reflects twice as much. Then one table for
+ * the light of the environment, made for a whole cloth, serves all bases. */
 WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveFootprint f, float wear) {
     vec2 repeat = vec2(weave_number(CLOTH_WARPS), weave_number(CLOTH_PICKS));
     vec2 texel = repeat / vec2(weave_number(CLOTH_FAR_WIDTH), weave_number(CLOTH_FAR_HEIGHT));
-    float level = weave_far_level(f, 2.0 * texel.x, 2.0 * texel.y), layer = weft ? 2.0 : 0.0;
+    float level = weave_far_level(f, FAR_TEXELS * texel.x, FAR_TEXELS * texel.y), layer = weft ? 2.0 : 0.0;
     float last = log2(max(weave_number(CLOTH_FAR_WIDTH), weave_number(CLOTH_FAR_HEIGHT)));
-    int places = level < last ? 5 : 1;
+    int places = level < last && FAR_TEXELS > 1.0 ? 5 : 1;
     vec4 single = vec4(0.0), multiple = vec4(0.0);
     for (int k = 0; k < places; k++) {
         vec2 from = pixel_point(k, places);
