@@ -7,10 +7,10 @@ command -v objdump >/dev/null || {
     echo "skipped: there is no objdump"
     exit 77
 }
-# charlie-neubelt-normalised picks taps and texels of a table, as ltc-fibre, ltc-fibre-published and fibre-table do
+# charlie-neubelt-normalised picks taps and texels of a table, as ltc-fibre, its kin and fibre-table do
 # where each element has a row of its own; F = none (mixed_0) has nothing to work out.
 exceptions="charlie_neubelt_normalised_f_n charlie_neubelt_normalised_each_n ltc_fibre_each_n ltc_fibre_drawn_each_n \
-ltc_fibre_published_each_n ltc_fibre_published_drawn_each_n fibre_table_each_n mixed_0_n"
+ltc_fibre_published_each_n ltc_fibre_published_drawn_each_n ltc_fibre_half_each_n fibre_table_each_n mixed_0_n"
 # woven has three where all pairs have one lobe: with few rounds, with some, and with all (BY_COUNT in
 # src/shading/lobe/lobe_loop.h).
 objdump -d --no-show-raw-insn "$1" | awk -v exceptions="$exceptions" -v least="$2" '

@@ -339,10 +339,10 @@ static void layer_rules_dim_the_base_under_an_environment(void **state) {
             if (layer == LAYER_STOCHASTIC) continue; /* its bounces are the path tracer's */
             float off = abs(got.r - truth.r) + abs(got.g - truth.g) + abs(got.b - truth.b);
             float all = truth.r + truth.g + truth.b;
-            /* rules min and max meet E(wi), seed and side-by-side the interface, on average alone */
+            /* rules min and max meet E(wi), half E(h), seed and side-by-side the interface, on average alone */
             const Stack *made = &m.stack;
             bool averaged = layer == LAYER_ALBEDO_MIN || layer == LAYER_ALBEDO_MAX || IS_BELOW_F(made);
-            float most = averaged ? 0.06f : 0.03f;
+            float most = layer == LAYER_ALBEDO_HALF ? 0.1f : averaged ? 0.06f : 0.03f;
             if (!(off < most * all))
                 fail_msg("layer %d, cosine %g: %.2f %%", layer, (double)o.z, (double)(100.0f * off / all));
         }

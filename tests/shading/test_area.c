@@ -68,7 +68,8 @@ static void sheens_under_a_polygon_are_near_the_integral(void **state) {
     for (int id = 0; id < LOBE_COUNT; id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
         if (info->traits & (TRAIT_REFERENCE | TRAIT_DIFFUSE) || id == LOBE_GGX || id == LOBE_COOK_TORRANCE) continue;
-        bool coat = id == LOBE_BURLEY_COAT || id == LOBE_SILK;
+        /* a highlight, a streak, and one that turns with the azimuth */
+        bool coat = id == LOBE_BURLEY_COAT || id == LOBE_SILK || id == LOBE_LTC_FIBRE_HALF;
         for (int k = 0; k < 3; k++) {
             static const float alphas[] = {0.1f, 0.25f, 0.5f};
             if (test_turn(&at, 5, 7))

@@ -1,6 +1,7 @@
 /* The layer rules as formulas: what each leaves of the base, between themselves and against conservation */
 #include "cases.h"
 #include "shading/layers/additive.h"
+#include "shading/layers/albedo_half.h"
 #include "shading/layers/albedo_max.h"
 #include "shading/layers/albedo_min.h"
 #include "shading/layers/albedo_view.h"
@@ -10,7 +11,7 @@
 #include "shading/layers/side_by_side.h"
 #include "shading/layers/stochastic.h"
 
-enum { ADDITIVE, MULTIPLICATIVE, SEED, SIDE, VIEW, MAX, MIN, RECIPROCAL, STOCHASTIC, RULES };
+enum { ADDITIVE, MULTIPLICATIVE, SEED, SIDE, VIEW, MAX, MIN, RECIPROCAL, STOCHASTIC, HALF, RULES };
 
 static float rule_base(int rule, float c, float e_o, float e_i, float e_avg) {
     switch (rule) {
@@ -22,13 +23,14 @@ static float rule_base(int rule, float c, float e_o, float e_i, float e_avg) {
     case MAX: return albedo_max_base(c, e_o, e_i, e_avg);
     case MIN: return albedo_min_base(c, e_o, e_i, e_avg);
     case RECIPROCAL: return reciprocal_base(c, e_o, e_i, e_avg);
+    case HALF: return albedo_half_base(c, e_o, e_i, e_avg); /* e_i: that towards h */
     default: return stochastic_base(c, e_o, e_i, e_avg);
     }
 }
 
-static const char *const rule_names[RULES] = {"additive",     "multiplicative", "seed",
-                                              "side-by-side", "albedo-view",    "albedo-max",
-                                              "albedo-min",   "reciprocal",     "stochastic"};
+static const char *const rule_names[RULES] = {"additive",    "multiplicative", "seed",       "side-by-side",
+                                              "albedo-view", "albedo-max",     "albedo-min", "reciprocal",
+                                              "stochastic",  "albedo-half"};
 
 /* A sheen's E(mu) to calculate with: dark in front, bright at the rim. */
 static double sheen_e(double mu) { return 0.04 + 0.86 * (1.0 - mu) * (1.0 - mu) * (1.0 - mu); }
@@ -55,7 +57,7 @@ static double base_albedo(int rule, double c, double mu_o) {
 
 static void energy_of_layer_rules_is_as_stated(void **state) {
     (void)state;
-    double average = 0.0, most[RULES] = {0}, least[RULES] = {9, 9, 9, 9, 9, 9, 9, 9, 9};
+    double average = 0.0, most[RULES] = {0}, least[RULES] = {9, 9, 9, 9, 9, 9, 9, 9, 9, 9};
     for (int k = 0; k <= STEPS; k++) average += simpson(k) * 2.0 * sheen_e((double)k / STEPS) * k / STEPS;
     assert_true(fabs(average - sheen_average) < 1e-9);
     for (int n = 0; n < 100; n++) {
@@ -110,7 +112,8 @@ static void layer_rules_are_reciprocal_as_claimed(void **state) {
     for (int n = 0; n < 100000; n++) {
         float c = random_unit(&random), a = random_unit(&random), b = random_unit(&random), avg = random_unit(&random);
         for (int rule = 0; rule < RULES; rule++)
-            worst[rule] = max(worst[rule], fabsf(rule_base(rule, c, a, b, avg) - rule_base(rule, c, b, a, avg)));
+            worst[rule] = max(worst[rule],
+                              fabsf(rule_base(rule, c, a, b, avg) - rule_base(rule, c, b, rule == HALF ? b : a, avg)));
     }
     for (int rule = 0; rule < RULES; rule++)
         if (rule == VIEW || rule == MULTIPLICATIVE)

@@ -23,6 +23,7 @@ enum {
     KHR_FUZZ,
     KHR_FUZZ_EXACT,
     CORE,
+    BABYLON_OPENPBR,
     PROFILES
 };
 
@@ -394,6 +395,40 @@ static Color engine_khr_fuzz(const Surface *s, Pair p) {
     return f;
 }
 
+/* The published table of 32 cosines by 32 alphas as Babylon.js reads it: filtered between the centres of texels, which
+ * are shares of a range, and then decoded as if they had a gamma of 2.2. */
+static double babylon_table(int channel, double cosine, double alpha) {
+    static const double low[] = {0.005, -0.18, 0.0}, high[] = {0.88, 0.002, 0.75};
+    const TableRef t = lobe_table_refs[LOBE_TABLE_ltc_fibre_published];
+    const int rows = t.rows / 3, last = t.columns - 1;
+    const double u = fmin(fmax(cosine * t.columns - 0.5, 0.0), last), v = fmin(fmax(alpha * rows - 0.5, 0.0), last);
+    const int k = (int)fmin(u, last - 1.0), j = (int)fmin(v, last - 1.0);
+    const float *e = t.texels + ((size_t)channel * (size_t)rows + (size_t)j) * (size_t)t.columns + k;
+    const double x = u - k, y = v - j;
+    const double stored =
+        lerp(lerp((double)e[0], (double)e[1], x), lerp((double)e[t.columns], (double)e[t.columns + 1], x), y);
+    const double range = high[channel] - low[channel], share = fmin(fmax((stored - low[channel]) / range, 0.0), 1.0);
+    return low[channel] + range * (pow)(share, 2.2);
+}
+
+static Color engine_babylon_openpbr(const Surface *s, Pair p) {
+    Given g = given_of(s);
+    const double alpha = (sqrt)(g.rs), r = babylon_table(2, p.nh, alpha), weight = fmin((double)s->sheen, 1.0) * r;
+    const double x = babylon_table(0, p.nh, alpha) * p.i[0] + babylon_table(1, p.nh, alpha) * p.i[1];
+    const double fuzz = p.l / (sqrt)(x * x + sq(p.i[1]) + sq(p.l)), fc = schlick(p.vh);
+    const double strength = fmin((double)s->specular, 1.0), ior = (double)s->ior;
+    const double f0 = sq((ior - 1.0) / (ior + 1.0)) * strength, dv = ggx(sq(g.r), p.nh) * smith(sq(g.r), p);
+    const double ac = sq((double)s->clearcoat_roughness), coat = (double)s->clearcoat * lerp(0.04, 1.0, schlick(p.v));
+    Color f, tint = color_of(s->specular_color), color = color_of(s->sheen_color);
+    for (int k = 0; k < 3; k++) {
+        double dielectric = g.base.c[k] / PI_DOUBLE * (1.0 - lerp(f0, 1.0, fc)) + dv * tint.c[k] * lerp(f0, 1.0, fc);
+        double metal = dv * strength * lerp(g.base.c[k], 1.0, fc);
+        double below = lerp(lerp(dielectric, metal, g.metal), ggx(ac, p.nh) * smith(ac, p), coat);
+        f.c[k] = lerp(below, color.c[k] * fuzz, weight);
+    }
+    return f;
+}
+
 static Color engine_core(const Surface *s, Pair p) {
     Given g = given_of(s);
     double dv = ggx(sq(g.r), p.nh) * smith(sq(g.r), p), fd = lerp(0.04, 1.0, schlick(p.vh));
@@ -424,6 +459,7 @@ static Color (*const engines[PROFILES])(const Surface *, Pair) = {
     [KHR_FUZZ] = engine_khr_fuzz,
     [KHR_FUZZ_EXACT] = engine_khr_fuzz,
     [CORE] = engine_core,
+    [BABYLON_OPENPBR] = engine_babylon_openpbr,
 };
 
 static Choices only_profile(int profile) {
@@ -530,6 +566,7 @@ static void profiles_follow_the_formulas_of_their_engines(void **state) {
                 bare.sheen_color = (Rgb){0.0f, 0.0f, 0.0f};
                 tolerance = 6e-3 * max3(given_of(&s).sheen) * max3(engine_principled(&bare, p));
             }
+            if (profile == BABYLON_OPENPBR) tolerance = 1e-5; /* of v, whose a and b are small numbers */
             if (profile == KHR_FUZZ || profile == KHR_FUZZ_EXACT) {
                 Surface bare = s;
                 bare.sheen = 0.0f;

@@ -80,6 +80,28 @@ static bool conserves_at(int lobe, float alpha) {
     return true;
 }
 
+/* Returns E of a lobe seen from an azimuth, by midpoints that are even in cos_i^2. */
+static double albedo_from(const WeftLobe *lobe, float mu, double azimuth) {
+    enum { RINGS = 200, SECTORS = 200 };
+    const float s = sqrtf(1.0f - mu * mu), wo[3] = {s * (float)cos(azimuth), s * (float)sin(azimuth), mu};
+    double sum = 0.0;
+    for (int k = 0; k < RINGS * SECTORS; k++) {
+        const double u = ((double)(k / SECTORS) + 0.5) / RINGS,
+                     phi = 2.0 * PI_DOUBLE * ((double)(k % SECTORS) + 0.5) / SECTORS;
+        const float wi[3] = {(float)(sqrt(u) * cos(phi)), (float)(sqrt(u) * sin(phi)), (float)sqrt(1.0 - u)};
+        float f[3];
+        weft_lobe_eval(lobe, wo, wi, f);
+        sum += (double)f[0] / (RINGS * SECTORS);
+    }
+    return sum * PI_DOUBLE;
+}
+
+/* Returns true if E of a lobe depends on the azimuth, as where an engine reads a table in the frame of the surface. */
+static bool is_turned(const WeftLobe *lobe, float mu) {
+    const double along = albedo_from(lobe, mu, 0.0), across = albedo_from(lobe, mu, 0.5 * PI_DOUBLE);
+    return fabs(along - across) > 2e-3 * along;
+}
+
 /* Every lobe; under sanitizers (WEFT_TEST_SHORT=1) one of seven, and for numbers to mean something, as many
  * samples. */
 static int lobe_step(void) {
@@ -289,6 +311,7 @@ static void plane_in_the_furnace_shows_the_albedo(void **state) {
             Estimate found = estimate(&image);
             WeftLobe l = rough_lobe(lobe, 0.36f);
             weft_lobe_albedo(&l, mu, e);
+            if (!walks(lobe) && is_turned(&l, mu)) e[0] = (float)albedo_from(&l, mu, 0.5 * PI_DOUBLE);
             printf("  plane %-22s cos %.1f: %.5f +- %.5f, E %.5f\n", info->id, (double)mu, found.mean, found.error,
                    (double)e[0]);
             double noise = walks(lobe) ? 4.0 * hypot(found.error, call_error) : 0.0;
@@ -305,6 +328,8 @@ static void sphere_in_the_furnace_shows_the_albedo(void **state) {
     for (int lobe = 0; lobe < weft_lobe_count(); lobe += lobe_step()) {
         const WeftLobeInfo *info = weft_lobe_info(lobe);
         if (info->traits & WEFT_LOBE_TWO_COLORS || walks(lobe)) continue;
+        WeftLobe l = rough_lobe(lobe, 0.36f);
+        if (is_turned(&l, 0.5f)) continue; /* tangents of a sphere have all azimuths */
         WeftScene *scene = test_scene();
         test_environment(scene, 1.0f);
         set_sheen(test_material(scene, 0.0f), info->id, 0.36f);
@@ -319,7 +344,6 @@ static void sphere_in_the_furnace_shows_the_albedo(void **state) {
             512);
         double light = 0.0, pixel = 2000.0 * tan(0.065 * RADIANS) / 32.0;
         for (int k = 0; k < 32 * 32; k++) light += (double)((float *)image.pixels)[4 * k] * pixel * pixel;
-        WeftLobe l = rough_lobe(lobe, 0.36f);
         double truth = 0.0;
         enum { STEPS = 150 };
         for (int k = 0; k < STEPS; k++) {

@@ -42,6 +42,12 @@ static void sheen_roughness_squared(Material *m) {
 
 static void sheen_roughness_of_base(Material *m) { m->inputs[INPUT_sheen_roughness] = m->inputs[INPUT_roughness]; }
 
+/* Gives a chosen lobe, whose alpha is roughness^2, the root of the roughness. */
+static void fuzz_alpha_rooted(Material *m) {
+    if (m->inputs[INPUT_fuzz_roughness].texture) return;
+    m->inputs[INPUT_fuzz_roughness].value[0] = sqrtf(sqrtf(m->inputs[INPUT_fuzz_roughness].value[0]));
+}
+
 static void roughness_linear(Material *m) {
     if (m->inputs[INPUT_roughness].texture) return;
     m->inputs[INPUT_roughness].value[0] = sqrtf(m->inputs[INPUT_roughness].value[0]);
@@ -142,7 +148,7 @@ static bool environment_at_270(WeftScene *scene, WeftRenderDesc *desc) {
 
 #define ANY INPUT_COUNT
 
-/* TERM: settings of a material; CHANGE: a function of it; LIGHT: one of the scene; SCALE, VALUES: of a picture. */
+/* TERM: settings of a material; CHANGE: a function of it (a row may have both); LIGHT: one of the scene; SCALE, VALUES: of a picture. */
 #define TERM(name_, reads_, help_, ...)                                                                                \
     {                                                                                                                  \
         .name = (name_), .help = (help_), .kind = WEFT_CAUSE_TERM, .reads = (reads_), .sets = { __VA_ARGS__ }          \
@@ -175,6 +181,12 @@ static const CauseRow rows[] = {
          "sheen_lobe=ashikhmin-neubelt"),
     TERM("sheen-ltc-fibre", INPUT_sheen_roughness, "the sheen is of microfibres, with multiple scattering",
          "sheen_lobe=ltc-fibre"),
+    {.name = "fuzz-at-half",
+     .help = "the table of the fuzz is read at n . h and at the root of the roughness, and its light has no norm",
+     .kind = WEFT_CAUSE_TERM,
+     .reads = INPUT_fuzz_roughness,
+     .sets = {"sheen_lobe=ltc-fibre-half", "layer=albedo-half"},
+     .material = fuzz_alpha_rooted},
     CHANGE("sheen-roughness-not-squared", INPUT_sheen_roughness, "the roughness of the sheen is its alpha, not squared",
            sheen_roughness_linear),
     CHANGE("sheen-roughness-squared-twice", INPUT_sheen_roughness,

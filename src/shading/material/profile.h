@@ -3,7 +3,9 @@
  * Adding a profile: one file in profiles/, its #include and one line in WEFT_PROFILES. */
 #pragma once
 
+#include "shading/lobes/ltc_fibre_half.h"
 #include "shading/profiles/babylon.h"
+#include "shading/profiles/babylon_openpbr.h"
 #include "shading/profiles/core.h"
 #include "shading/profiles/cycles_principled.h"
 #include "shading/profiles/cycles_velvet.h"
@@ -55,7 +57,8 @@
     P("cycles-principled", 15, cycles_principled_stack(m, s), "Blender Cycles 4.0 and later, Principled: microfibres") \
     P("khr-fuzz", 16, khr_fuzz_stack(m, s), "glTF's coming fuzz as written, by the published table")                   \
     P("khr-fuzz-exact", 17, khr_fuzz_exact_stack(m, s), "the same by a table without bias")                            \
-    P("core", 18, core_stack(m, s), "engines without extensions: metalness and roughness alone")
+    P("core", 18, core_stack(m, s), "engines without extensions: metalness and roughness alone")                       \
+    P("babylon-openpbr", 19, babylon_openpbr_stack(m, s), "Babylon.js 9.35, OpenPBRMaterial: its fuzz")
 
 /* The formulas of engines for E: A(name, source, true if it reads the table of the lobe itself, formula). */
 #define WEFT_ALBEDO_FORMULAS(A)                                                                                        \
@@ -63,7 +66,8 @@
     A(three, ALBEDO_THREE, false, three_albedo(cosine, m->albedo_coord))                                               \
     A(filament, ALBEDO_FILAMENT, false, table_albedo(engine_table(ENGINE_FILAMENT_SHEEN), cosine, m->albedo_coord))    \
     A(babylon, ALBEDO_BABYLON, false, table_albedo(engine_table(ENGINE_BABYLON_SHEEN), cosine, m->albedo_coord))       \
-    A(materialx, ALBEDO_MATERIALX, false, materialx_albedo(cosine, m->albedo_coord))
+    A(materialx, ALBEDO_MATERIALX, false, materialx_albedo(cosine, m->albedo_coord))                                   \
+    A(babylon_fuzz, ALBEDO_BABYLON_FUZZ, false, ltc_fibre_half_r(cosine, m->albedo_coord))
 
 /* The steps of engines that depend on wo: V(name, view, statement that changes a view in which nothing is
  * dimmed yet). */

@@ -22,7 +22,9 @@ FN Rgb stack_under_sheen(const Stack *m, const StackView *w, const Angles *a, Rg
     Rgb base_scale = w->base_scale;
     if (layer_needs_wi(m->layer)) {
         SheenE e_i = sheen_e_of(0.0f);
-        if (HAS_SHEEN(m)) e_i = stack_albedo(m, a->i);
+        Dir at = a->i;
+        if (m->layer == LAYER_ALBEDO_HALF) at = a->h;
+        if (HAS_SHEEN(m)) e_i = stack_albedo(m, at);
         base_scale = stack_base_scale(m, w, e_i);
     }
     return rgb_mul(f, base_scale);

@@ -20,12 +20,13 @@
 
 #include "shading/workflows/metallic.h"
 
-FN void openpbr_stack(Stack *m, const Surface *s) {
+/* Makes the stack with another fuzz and interface rule: base_fresnel is one of the BASE_FRESNEL_... of stack.h. */
+FN void openpbr_with(Stack *m, const Surface *s, Lobe fuzz, int base_fresnel) {
     workflow_coat(m, s);
-    workflow_fuzz(m, s, lobe_default(LOBE_LTC_FIBRE));
+    workflow_fuzz(m, s, fuzz);
     m->sheen_over_coat = true;
     float strength = clamp(s->specular, 0.0f, 1.0f), f0 = dielectric_f0(s) * strength;
-    m->base_fresnel = BASE_FRESNEL_LEAST;
+    m->base_fresnel = base_fresnel;
     m->interface_f0 = rgb_grey(f0);
     m->interface_f90 = 1.0f;
     /* sums, since a mix of 1000 and 1 at its end keeps few digits of the 1 */
@@ -36,4 +37,8 @@ FN void openpbr_stack(Stack *m, const Surface *s) {
     m->specular.lobe.params[GGX_ALPHA] = clamp(s->roughness * s->roughness, 0.001f, 1.0f);
     m->specular.f90 = rgb_add(rgb_scale(s->specular_color, glass), rgb_grey(metal));
     workflow_coming(m, s);
+}
+
+FN void openpbr_stack(Stack *m, const Surface *s) {
+    openpbr_with(m, s, lobe_default(LOBE_LTC_FIBRE), BASE_FRESNEL_LEAST);
 }

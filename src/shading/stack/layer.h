@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/layers/additive.h"
+#include "shading/layers/albedo_half.h"
 #include "shading/layers/albedo_max.h"
 #include "shading/layers/albedo_min.h"
 #include "shading/layers/albedo_view.h"
@@ -20,14 +21,16 @@
 #define LAYER_ALBEDO_MAX     6
 #define LAYER_RECIPROCAL     7
 #define LAYER_STOCHASTIC     8
-#define LAYER_COUNT          9
+#define LAYER_ALBEDO_HALF    9
+#define LAYER_COUNT          10
 
 /* Which colour of the sheen a rule takes. */
 #define LAYER_BY_MAX     0
 #define LAYER_BY_CHANNEL 1
 
 /* L(id, index, factor on the base, needs_wi, needs_average, conserves, by, help). c: the sheen's colour. e_o, e_i, e_avg:
- * its white albedo towards wo, towards wi, and on average. needs_wi, needs_average: the factor reads e_i, e_avg.
+ * its white albedo towards wo, towards wi (of rule albedo-half towards h), and on average. needs_wi, needs_average: the
+ * factor reads e_i, e_avg.
  * conserves: with a sheen of E <= 1 the stack reflects no more light than it receives. by: the colour that the rule takes
  * where none is chosen. A rule that adds light adds it in the sheen's colour. */
 #define WEFT_LAYERS(L)                                                                                                 \
@@ -48,7 +51,9 @@
     L("reciprocal", LAYER_RECIPROCAL, reciprocal_base(c, e_o, e_i, e_avg), true, true, true, LAYER_BY_MAX,             \
       "the base keeps (1 - c E(wo))(1 - c E(wi)) / (1 - c E_avg)")                                                     \
     L("stochastic", LAYER_STOCHASTIC, stochastic_base(c, e_o, e_i, e_avg), true, true, true, LAYER_BY_MAX,             \
-      "light bounces between sheen and base; the path tracer's reference")
+      "light bounces between sheen and base; the path tracer's reference")                                             \
+    L("albedo-half", LAYER_ALBEDO_HALF, albedo_half_base(c, e_o, e_i, e_avg), true, false, false, LAYER_BY_MAX,        \
+      "the base keeps 1 - c E(h), h the half vector; gains energy")
 
 /* Returns the factor that the layer rule leaves for the base at wo and wi. */
 #define LAYER_CASE(id, index, base, needs_wi, needs_average, conserves, by, help)                                      \

@@ -55,12 +55,13 @@ STRUCT(Slot) {
 
 /* The source of E of the sheen: the lobe's own table, which ALBEDO_KHRONOS reads too, or an engine's formula
  * (profile.h). */
-#define ALBEDO_TABLE     0
-#define ALBEDO_KHRONOS   1
-#define ALBEDO_THREE     2
-#define ALBEDO_FILAMENT  3
-#define ALBEDO_BABYLON   4
-#define ALBEDO_MATERIALX 5
+#define ALBEDO_TABLE        0
+#define ALBEDO_KHRONOS      1
+#define ALBEDO_THREE        2
+#define ALBEDO_FILAMENT     3
+#define ALBEDO_BABYLON      4
+#define ALBEDO_MATERIALX    5
+#define ALBEDO_BABYLON_FUZZ 6
 
 /* An engine's own steps that depend on wo (profile.h). */
 #define VIEW_NONE      0
