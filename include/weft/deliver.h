@@ -12,6 +12,7 @@ extern "C" {
 typedef struct WeftTarget {
     const char *name, *help; /* such as "three", and a line on it; live as long as the program */
     const char *profile;     /* of weft_profile_name, which shades as the program does */
+    int levels;              /* not 0: it reads KHR_texture_basisu by what it comes with */
     const char *fit; /* the one that baked cloth is fitted by: it has stretched highlights where the program does */
 } WeftTarget;
 
@@ -46,6 +47,19 @@ typedef struct WeftDelivery {
 WEFT_API WeftResult weft_deliver(const char *path, const char *out, int from, int target, WeftBrdfMetric metric,
                                  WeftProgress progress, void *user, WeftDelivery *delivery, const WeftLog *log,
                                  WeftError *error);
+
+/* Gives materials of the glTF file at `path` whose normal map is fine mip levels of their own, and writes it to `out`, which
+ * may be the same. Means of normals are flat, so that from afar highlights would be narrower than they are: in the levels
+ * after the first the roughness widens with the slopes s that a level has no texels for,
+ *
+ *   alpha'^2 = mean of alpha^2 + 2 scale^2 (E s^2 - (E s)^2) / 2,  alpha = roughness^2
+ *
+ * (Marc Olano, Dan Baker, "LEAN Mapping", I3D 2010, for one width). Only where the deviation of slopes exceeds
+ * WEFT_FINE_SLOPES, sides are multiples of 4, and a map of roughness has the place of the normal map or there is none. Both
+ * maps then are KTX 2 files by KHR_texture_basisu, with PNGs beside. *count: materials that were changed; if none, `out` is
+ * written as it was. Fails as reading and writing a file do. */
+#define WEFT_FINE_SLOPES 0.15
+WEFT_API WeftResult weft_deliver_levels(const char *path, const char *out, int *count, WeftError *error);
 
 /* Releases what a delivery owns. delivery may be NULL. */
 WEFT_API void weft_delivery_free(WeftDelivery *delivery);

@@ -133,6 +133,7 @@ typedef struct WeftBaking {
     int pixels;          /* about pixels^2 texels, square ones, 16 .. 8192; 0: 1024 */
     double metres;       /* width of a unit of texture coordinates; 0: 1 */
     const char *profile; /* of the viewer, which must read glTF's metallic; NULL: khronos */
+    int levels; /* not 0: KTX 2 files with mip levels of their own in place of PNG, but of height and other face */
 } WeftBaking;
 
 /* The distance of the maps from the cloth, as seen from afar: the mean over five directions of light and an even sky of
@@ -142,6 +143,7 @@ typedef struct WeftBaked {
     double fitted;   /* of the maps that are written */
     double sky;      /* what an even sky gives too much, over what it gives the cloth */
     double contrast; /* of squares of 4 by 4 texels with each other, over that of the threads */
+    double levels;   /* the mean of the distance of mip levels of their own after the first; 0: there are none */
 } WeftBaked;
 
 /* Writes a woven material as tiling textures into a folder, which is made if it does not exist: base_color.png (sRGB,
@@ -152,7 +154,9 @@ typedef struct WeftBaked {
  * texels. The numbers of the material, and factors on the colours, roughness and anisotropy of the textures, are fitted so
  * that what a viewer of that profile shades is what the cloth reflects from afar, with the sheen of `material`, and threads
  * keep their contrast near by. Gaps are black where the material is opaque, else holes. The rotation of the weave is left
- * out. found, of the front, may be NULL. The same arguments give the same files. Fails with WEFT_MESSAGE_DESC (no cloth, a
+ * out. With `levels` sides are multiples of 4, the first four files of the front end in .ktx2 (UASTC in Zstandard, as
+ * KHR_texture_basisu takes it), and each mip level is fitted like the whole: its texels shade as the cloth does from
+ * afar, in the mean, with the contrast of the threads at that size. found, of the front, may be NULL. The same arguments give the same files. Fails with WEFT_MESSAGE_DESC (no cloth, a
  * number out of range, a profile that is not one or does not read metallic), _PARAM_VALUE, _FILE_WRITE or _MEMORY. */
 WEFT_API WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *cloth, const WeftBaking *baking,
                                        const char *folder, WeftBaked *found, WeftError *error);

@@ -8,6 +8,8 @@
 
 #include <jansson.h>
 
+#include "base/file.h"
+#include "image/ktx2/ktx2.h"
 #include "weft/weft.h"
 
 static const char all_targets[] = "khronos,three,babylon,filament,blender,core";
@@ -270,6 +272,118 @@ static void cloth_is_fitted_for_each_target(void **state) {
     folder_clear("silk");
 }
 
+/* Returns true if a target's file names its textures as KTX 2 too, each beside a PNG. */
+static bool has_levels(const char *path) {
+    json_t *root = glb_json(path), *texture;
+    size_t k, plain = 0, own = 0;
+    json_array_foreach(json_object_get(root, "textures"), k, texture) {
+        const json_t *offer = json_object_get(json_object_get(texture, "extensions"), "KHR_texture_basisu");
+        const json_t *images = json_object_get(root, "images");
+        const json_t *image = json_array_get(images, (size_t)json_integer_value(json_object_get(texture, "source")));
+        plain += strcmp(json_string_value(json_object_get(image, "mimeType")), "image/png") == 0;
+        image = json_array_get(images, (size_t)json_integer_value(json_object_get(offer, "source")));
+        own += offer && strcmp(json_string_value(json_object_get(image, "mimeType")), "image/ktx2") == 0;
+    }
+    json_decref(root);
+    assert_true(plain > 0 && (own == 0 || own == plain));
+    return own > 0;
+}
+
+/* A triangle with a normal map, whose slopes are so steep, in checks of one texel. */
+static void bumps_make(double slope) {
+    enum { TEXELS = 16 };
+    WeftImage image;
+    assert_int_equal(weft_image_create(TEXELS, TEXELS, 3, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
+    const double z = 1.0 / sqrt(1.0 + slope * slope);
+    for (int k = 0; k < TEXELS * TEXELS; k++) {
+        const double sign = (k + k / TEXELS) % 2 ? 1.0 : -1.0, n[3] = {sign * slope * z, 0.0, z};
+        for (int c = 0; c < 3; c++)
+            ((unsigned char *)image.pixels)[3 * k + c] = (unsigned char)lrint(127.5 * (n[c] + 1.0));
+    }
+    assert_int_equal(weft_image_write_as("bumps.png", &image, &(WeftImageWriting){.data = 1}, NULL), WEFT_OK);
+    weft_image_free(&image);
+    static const char text[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":0}]}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[-1,-1,0],"
+        "\"max\":[1,1,0]},{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":"
+        "\"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA\"}],"
+        "\"images\":[{\"uri\":\"bumps.png\"}],\"textures\":[{\"source\":0}],"
+        "\"materials\":[{\"normalTexture\":{\"index\":0},\"doubleSided\":true,"
+        "\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.3}}]}";
+    file_make("bumps.gltf", text, strlen(text));
+}
+
+/* A fine normal map gets levels whose roughness has what their normals lack; a gentle one stays as it is. */
+static void fine_normal_maps_get_levels(void **state) {
+    (void)state;
+    bumps_make(0.1);
+    delivered(LIST("deliver", "bumps.gltf", "--to", "three", "-o", "bumps", "--width", "32", "--spp", "1"));
+    json_t *root = glb_json("bumps/bumps-three.glb");
+    assert_null(json_object_get(root, "extensionsUsed"));
+    json_decref(root);
+    bumps_make(0.5);
+    delivered(LIST("deliver", "bumps.gltf", "--to", "three,babylon", "-o", "bumps", "--width", "32", "--spp", "1"));
+    root = glb_json("bumps/bumps-babylon.glb");
+    assert_null(json_object_get(root, "extensionsUsed"));
+    json_decref(root);
+    WeftScene *scene;
+    WeftMaterial material;
+    WeftError error;
+    if (weft_scene_load("bumps/bumps-three.glb", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(weft_scene_material(scene, 0, &material, &error), WEFT_OK);
+    WeftImage map = weft_scene_texture(scene, material.inputs[weft_material_input_find("roughness")].texture);
+    assert_int_equal(map.width, 16); /* the first level is as it was: a factor of 0.3 */
+    assert_true(abs(((const unsigned char *)map.pixels)[1] - 77) <= 3);
+    weft_scene_free(scene);
+    /* the last of the levels, read as a viewer does: alpha^2 is .3^4 + .5^2 */
+    root = glb_json("bumps/bumps-three.glb");
+    const json_t *images = json_object_get(root, "images"), *views = json_object_get(root, "bufferViews");
+    const json_t *view =
+        json_array_get(views, (size_t)number(json_array_get(images, json_array_size(images) - 1), "bufferView"));
+    size_t size;
+    char *bytes = file_bytes("bumps/bumps-three.glb", &size);
+    const size_t json_size = (size_t)((unsigned char)bytes[12] + 256 * (unsigned char)bytes[13]);
+    const json_t *at = json_object_get(view, "byteOffset");
+    file_make("last.ktx2", bytes + 28 + json_size + (size_t)json_integer_value(at), (size_t)number(view, "byteLength"));
+    Ktx2 file;
+    FileBytes own;
+    WeftImage last;
+    assert_int_equal(file_read("last.ktx2", SIZE_MAX, &own, NULL), WEFT_OK);
+    const ImageSource source = {.data = own.data, .size = own.size, .name = "last.ktx2"};
+    assert_int_equal(ktx2_open(&source, &file, &error), WEFT_OK);
+    assert_int_equal(ktx2_picture(&file, 4, 0, &last, &error), WEFT_OK);
+    assert_true(last.width == 1 && last.height == 1);
+    const double alpha = pow(((const unsigned char *)last.pixels)[1] / 255.0, 2.0);
+    if (!(fabs(alpha - sqrt(pow(0.3, 4.0) + 0.25)) < 0.03)) fail_msg("alpha %g", alpha);
+    weft_image_free(&last);
+    free(own.data);
+    free(bytes);
+    json_decref(root);
+    json_t *summary = json_of("bumps/bumps.json");
+    char *text = json_dumps(json_object_get(target_of(summary, "three"), "extensions"), 0);
+    assert_non_null(strstr(text, "KHR_texture_basisu"));
+    free(text);
+    json_decref(summary);
+    folder_clear("bumps");
+}
+
+/* Textures have mip levels of their own for viewers that read them, unless told otherwise. */
+static void levels_are_for_those_who_read_them(void **state) {
+    (void)state;
+    static const char *const formats[] = {"auto", "png", "ktx2"};
+    for (int k = 0; k < 3; k++) {
+        delivered(LIST("deliver", "plain; both 1#a06040; sett 20", "--to", "three,babylon", "-o", "mips", "--name", "p",
+                       "--size", "64", "--width", "32", "--spp", "1", "--textures", formats[k]));
+        assert_true(has_levels("mips/p-three.glb") == (k != 1));
+        assert_true(has_levels("mips/p-babylon.glb") == (k == 2));
+        folder_clear("mips");
+    }
+    assert_complaint(NULL, LIST("deliver", "plain", "--to", "three", "-o", "no", "--textures", "jpeg"), WEFT_USAGE,
+                     "--textures");
+}
+
 /* A scene that was saved with its threads has them as textures. */
 static void woven_asset_is_baked(void **state) {
     (void)state;
@@ -354,7 +468,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(draft_is_delivered_to_every_target),    cmocka_unit_test(material_is_delivered_near_the_truth),
         cmocka_unit_test(asset_keeps_all_that_the_target_reads), cmocka_unit_test(unlit_material_keeps_its_color),
-        cmocka_unit_test(cloth_is_fitted_for_each_target),       cmocka_unit_test(woven_asset_is_baked),
+        cmocka_unit_test(cloth_is_fitted_for_each_target),       cmocka_unit_test(levels_are_for_those_who_read_them),
+        cmocka_unit_test(fine_normal_maps_get_levels),           cmocka_unit_test(woven_asset_is_baked),
         cmocka_unit_test(senseless_delivery_is_refused),         cmocka_unit_test(interrupted_delivery_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);

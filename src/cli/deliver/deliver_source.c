@@ -151,9 +151,10 @@ static int number_check(const WeftScene *scene, int index, const char *number) {
 
 /* Bakes the cloth of a material to textures that are fitted to a profile, and gives it these. */
 static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftMaterial *material,
-                      const char *profile) {
+                      const char *profile, bool levels) {
     const WeftClothInfo info = weft_scene_cloth_info(scene, material->cloth);
-    const WeftBaking baking = {.pixels = delivery->pixels, .metres = (double)info.metres, .profile = profile};
+    const WeftBaking baking = {
+        .pixels = delivery->pixels, .metres = (double)info.metres, .profile = profile, .levels = levels};
     const WeftMaterial bare = without_layers(material);
     WeftYarn yarns[2];
     WeftCloth *cloth = NULL;
@@ -162,7 +163,7 @@ static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const Wef
     snprintf(number, sizeof number, "%d", index);
     const int checked = number_check(scene, index, number);
     if (checked != 0) return checked;
-    snprintf(folder, sizeof folder, "%.3900s/bake-%.32s-%d", delivery->temporary, profile, index);
+    snprintf(folder, sizeof folder, "%.3900s/bake-%.32s-%d-%d", delivery->temporary, profile, levels, index);
     snprintf(file, sizeof file, "%s/material.json", folder);
     const WeftDraft *draft = weft_scene_cloth(scene, material->cloth, yarns);
     WeftResult result = weft_cloth_create(draft, yarns, (unsigned)info.seed, &cloth, &error);
@@ -176,14 +177,14 @@ static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const Wef
     return told(result, &error);
 }
 
-int source_bake(Delivery *delivery, const char *profile, WeftScene **out) {
+int source_bake(Delivery *delivery, const char *profile, bool levels, WeftScene **out) {
     WeftMaterial material;
     WeftError error;
     int result = source_load(delivery, out);
     const int count = result == 0 ? weft_scene_info(*out).material_count : 0;
     for (int k = 0; k < count && result == 0; k++) {
         result = told(weft_scene_material(*out, k, &material, &error), &error);
-        if (result == 0 && material.cloth) result = cloth_bake(delivery, *out, k, &material, profile);
+        if (result == 0 && material.cloth) result = cloth_bake(delivery, *out, k, &material, profile, levels);
         if (result == 0 && delivery_heed(delivery, (double)(k + 1) / count)) result = WEFT_INTERRUPTED;
     }
     return result;
@@ -198,9 +199,15 @@ static bool all_woven(const WeftScene *scene) {
     return true;
 }
 
+bool target_levels(const Delivery *delivery, const TargetFile *file) {
+    return delivery->textures == TEXTURES_KTX2 ||
+           (delivery->textures == TEXTURES_AUTO && file_target(file).levels != 0);
+}
+
 int source_write(Delivery *delivery, const TargetFile *file, char path[DELIVER_PATH], int *from) {
     const WeftTarget target = file_target(file);
     const char *profile = target.fit;
+    const bool levels = target_levels(delivery, file);
     WeftScene *scene = NULL;
     WeftError error;
     *from = delivery->from;
@@ -214,10 +221,10 @@ int source_write(Delivery *delivery, const TargetFile *file, char path[DELIVER_P
     else if (delivery->from >= 0) /* beside cloth there is what was made for that engine, and the file is for one */
         profile = weft_profile_name(delivery->from);
     weft_scene_free(scene);
-    snprintf(path, DELIVER_PATH, "%.3900s/source-%.32s.glb", delivery->temporary, profile);
+    snprintf(path, DELIVER_PATH, "%.3900s/source-%.32s-%d.glb", delivery->temporary, profile, levels);
     if (result != 0 || access(path, F_OK) == 0) return result; /* it was made for a target before this */
     scene = NULL;
-    result = source_bake(delivery, profile, &scene);
+    result = source_bake(delivery, profile, levels, &scene);
     if (result == 0) result = told(weft_scene_save(scene, path, &error), &error);
     weft_scene_free(scene);
     return result;

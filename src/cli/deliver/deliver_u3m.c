@@ -37,7 +37,7 @@ int u3m_write(Delivery *delivery, TargetFile *file, const char *path) {
     const WeftLog log = {.fn = loss_note, .user = &losses};
     WeftScene *scene = NULL;
     WeftError error;
-    int result = source_bake(delivery, file_target(file).fit, &scene);
+    int result = source_bake(delivery, file_target(file).fit, false, &scene);
     const int count = result == 0 ? weft_scene_info(scene).material_count : 1;
     if (count != 1)
         result = report(WEFT_USAGE, "--to u3m: a U3M holds one material, and %.300s has %d; deliver each by itself",

@@ -34,6 +34,9 @@ typedef struct Errors {
     double sky; /* light returned under an even sky over the reference's, less 1 */
 } Errors;
 
+/* How textures of cloth are written: as each viewer reads them best, or all as PNG or KTX 2. */
+typedef enum TextureFormat { TEXTURES_AUTO, TEXTURES_PNG, TEXTURES_KTX2 } TextureFormat;
+
 /* Stands for a U3M among targets, which are glTF otherwise. */
 enum { TARGET_U3M = -1 };
 
@@ -56,6 +59,7 @@ typedef struct Delivery {
     const char *reference;        /* what the pictures are compared with, in words */
     WeftBrdfMetric metric;
     int pixels, width, height, spp;
+    int textures; /* of cloth: of TextureFormat */
     char cameras[VIEW_COUNT][WEFT_CAMERA_TEXT];
     bool woven;     /* it has cloth, which is baked for each target by itself */
     char lost[400]; /* what the original has and its textures lack, sentences; "": nothing */
@@ -77,12 +81,15 @@ SourceKind source_kind(const char *what);
 /* Reads what is delivered as a scene, which is what the pictures are compared with. May be called again. */
 int source_load(Delivery *delivery, WeftScene **out);
 
-/* Reads what is delivered, with its cloth baked and fitted to a profile. */
-int source_bake(Delivery *delivery, const char *profile, WeftScene **out);
+/* Reads what is delivered, with its cloth baked and fitted to a profile. levels: textures have mip levels of their own. */
+int source_bake(Delivery *delivery, const char *profile, bool levels, WeftScene **out);
 
 /* Makes the glTF file that the file of a target is made from, and sets its path, and the profile that its numbers are
  * meant for. */
 int source_write(Delivery *delivery, const TargetFile *file, char path[DELIVER_PATH], int *from);
+
+/* Returns true if textures for a target have mip levels of their own. */
+bool target_levels(const Delivery *delivery, const TargetFile *file);
 
 /* Returns what a file is for; the suffix of its name. */
 WeftTarget file_target(const TargetFile *file);

@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -93,8 +94,11 @@ static int options_take(Delivery *delivery) {
     static const char *const metrics[] = {"cosine", "log", "picture", NULL};
     static const char *const of_drafts[] = {"--sett", "--yarn", "--seed"};
     const Options *options = delivery->options;
+    static const char *const textures[] = {"auto", "png", "ktx2", NULL}; /* as TextureFormat */
     int metric = 0;
-    if (!option_choice(options, "--metric", metrics, &metric)) return WEFT_USAGE;
+    if (!option_choice(options, "--metric", metrics, &metric) ||
+        !option_choice(options, "--textures", textures, &delivery->textures))
+        return WEFT_USAGE;
     delivery->metric = (WeftBrdfMetric)metric;
     delivery->folder = option_text(options, "-o");
     if (!delivery->folder) return report(WEFT_USAGE, "-o DIR is required: the folder for the files");
@@ -119,6 +123,23 @@ static int target_file_load(Delivery *delivery, const TargetFile *file, const ch
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
+/* Gives fine normal maps of a written file mip levels of their own, and lists what it then uses. */
+static int levels_add(TargetFile *file, const char *path) {
+    static const char line[] = "KHR_texture_basisu\n";
+    WeftError error;
+    int count = 0;
+    if (weft_deliver_levels(path, path, &count, &error) != WEFT_OK) return report_error(&error);
+    char **used = &file->delivery.extensions;
+    if (!count || strstr(*used, line)) return 0;
+    char *longer = malloc(strlen(*used) + sizeof line);
+    if (!longer) return report(WEFT_RESOURCES, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_MEMORY));
+    strcpy(longer, *used);
+    strcat(longer, line);
+    free(*used);
+    *used = longer;
+    return 0;
+}
+
 /* Writes a glTF file from the source that is made for it. */
 static int gltf_write(Delivery *delivery, TargetFile *file, const char *path) {
     char source[DELIVER_PATH];
@@ -131,7 +152,8 @@ static int gltf_write(Delivery *delivery, TargetFile *file, const char *path) {
     delivery_part(delivery, middle, high);
     const WeftResult made = weft_deliver(source, path, from, file->target, delivery->metric, delivery_heed, delivery,
                                          &file->delivery, NULL, &error);
-    return made == WEFT_OK || made == WEFT_INTERRUPTED ? (int)made : report_error(&error);
+    if (made != WEFT_OK) return made == WEFT_INTERRUPTED ? (int)made : report_error(&error);
+    return target_levels(delivery, file) ? levels_add(file, path) : 0;
 }
 
 /* Renders a delivered file as its target shades it, and compares it with the reference. */
@@ -238,6 +260,10 @@ static const Option deliver_options[] = {
     OPTION_WHOLE("--seed", "N", "0", 0, 288, "another cloth of the same draft and yarns"),
     OPTION_WHOLE("--size", "PIXELS", "1024", 16, 8192,
                  "textures of woven cloth have as many texels as a square of that side"),
+    OPTION_TEXT(
+        "--textures", "FORMAT", "auto",
+        "of woven cloth: png; ktx2 with mip levels of their own, and png beside it; auto: ktx2 for khronos, three "
+        "and filament"),
     OPTION_HEADING("Sheets"),
     OPTION_WHOLE("--width", "PIXELS", "320", 32, 2048, "of one picture on a sheet"),
     OPTION_WHOLE("--spp", "N", "32", 1, 4096, "samples per pixel"),

@@ -29,8 +29,10 @@ static int output_check(Weaving *weaving) {
     const char *path = weaving->output = option_text(weaving->options, "-o");
     const char *folder = option_text(weaving->options, "--bake");
     const bool cloth = option_given(weaving->options, "--close");
-    if (!folder && option_given(weaving->options, "--profile"))
-        return report(WEFT_USAGE, "--profile: is for the textures of --bake DIR");
+    static const char *const of_bakes[] = {"--profile", "--textures"};
+    for (size_t k = 0; k < sizeof of_bakes / sizeof *of_bakes && !folder; k++)
+        if (option_given(weaving->options, of_bakes[k]))
+            return report(WEFT_USAGE, "%s: is for the textures of --bake DIR", of_bakes[k]);
     if (folder && strlen(folder) > 4000) return report(WEFT_USAGE, "--bake: the name is too long");
     if (!path && cloth) return report(WEFT_USAGE, "--close: the picture needs a name: -o OUT.png");
     if (!path) return 0;
@@ -164,7 +166,10 @@ static int maps_write(Weaving *weaving) {
     WeftError error;
     WeftBaking baking = {.profile = option_text(weaving->options, "--profile")};
     if (!folder) return 0;
-    if (!option_integer(weaving->options, "--size", &baking.pixels)) return WEFT_USAGE;
+    static const char *const textures[] = {"png", "ktx2", NULL};
+    if (!option_integer(weaving->options, "--size", &baking.pixels) ||
+        !option_choice(weaving->options, "--textures", textures, &baking.levels))
+        return WEFT_USAGE;
     baking.metres = weaving->given ? baked_metres(weaving->cloth) : UV_METRES;
     if (weft_cloth_info(weaving->cloth).rotation > 0.0f || weft_cloth_info(weaving->cloth).rotation < 0.0f)
         report(0, "warning: %.300s: its weave is rotated; textures lie along the texture coordinates", weaving->what);
@@ -219,6 +224,9 @@ static void text_write(const Weaving *weaving) {
              "%.1f %% off the cloth's own light; %.1f %% with the threads' own numbers; sky %+.1f %%, contrast %.2f",
              100.0 * weaving->fit.fitted, 100.0 * weaving->fit.copied, 100.0 * weaving->fit.sky, weaving->fit.contrast);
     layout_entry(stdout, COLUMN, "textures", text);
+    if (!(weaving->fit.levels > 0.0)) return;
+    snprintf(text, sizeof text, "%.1f %% off it in the mean", 100.0 * weaving->fit.levels);
+    layout_entry(stdout, COLUMN, "mip levels", text);
 }
 
 static void json_write(const Weaving *weaving) {
@@ -241,6 +249,7 @@ static void json_write(const Weaving *weaving) {
         json_float(&json, "copied", (float)weaving->fit.copied);
         json_float(&json, "sky", (float)weaving->fit.sky);
         json_float(&json, "contrast", (float)weaving->fit.contrast);
+        if (weaving->fit.levels > 0.0) json_float(&json, "levels", (float)weaving->fit.levels);
         json_close(&json, '}');
     }
     for (int t = 0; t < 2; t++) {
@@ -289,6 +298,9 @@ static const Option weave_options[] = {
         "write textures of both faces that tile, a material file with them, fitted so that a viewer shades it as the "
         "cloth, a draped cloth of it, cloth.glb, and cloth.u3m"),
     OPTION_TEXT("--profile", "NAME", "khronos", "the viewer's shading that --bake is fitted for: an engine profile"),
+    OPTION_TEXT("--textures", "FORMAT", "png",
+                "of --bake: png, or ktx2 with mip levels of their own, each fitted by itself, for viewers that read "
+                "KHR_texture_basisu"),
     OPTION_WHOLE("--size", "PIXELS", "800", 16, 8192,
                  "width of that picture; textures have as many texels as a square of that side"),
     OPTION_SWITCH("--json", "the figures as JSON on standard output"),

@@ -19,7 +19,7 @@ WeftResult rewrite_begin(Rewrite *rewrite, Asset *asset, WeftError *error) {
 }
 
 void rewrite_end(Rewrite *rewrite) {
-    for (int k = 0; k < rewrite->image_count; k++) free(rewrite->images[k].png);
+    for (int k = 0; k < rewrite->image_count; k++) free(rewrite->images[k].bytes);
     free(rewrite->images);
     json_decref(rewrite->root);
     *rewrite = (Rewrite){0};
@@ -68,22 +68,43 @@ static json_t *texture_make(const Rewrite *rewrite, int image, int like) {
     return texture;
 }
 
-int rewrite_texture(Rewrite *rewrite, const void *png, size_t size, int like, WeftError *error) {
-    json_t *images = list(rewrite->root, "images"), *textures = list(rewrite->root, "textures");
-    size_t count = (size_t)rewrite->image_count + 1;
-    NewImage *grown = realloc_array(rewrite->images, count, sizeof *grown);
+/* Appends an image of a texture, whose bytes are copied. Returns its index, or -1 with *error. */
+static int image_add(Rewrite *rewrite, const void *bytes, size_t size, int texture, WeftError *error) {
+    json_t *images = list(rewrite->root, "images");
+    NewImage *grown = realloc_array(rewrite->images, (size_t)rewrite->image_count + 1, sizeof *grown);
     unsigned char *copy = alloc_array(size, 1);
-    int image = (int)json_array_size(images), texture = (int)json_array_size(textures);
+    const int image = (int)json_array_size(images);
     if (grown) rewrite->images = grown;
-    if (!grown || !copy || json_array_append_new(images, json_object()) != 0 ||
-        json_array_append_new(textures, texture_make(rewrite, image, like)) != 0) {
+    if (!grown || !copy || json_array_append_new(images, json_object()) != 0) {
         free(copy);
         fail(error, WEFT_MESSAGE_MEMORY, rewrite->asset->name, NULL);
         return -1;
     }
-    memcpy(copy, png, size);
+    memcpy(copy, bytes, size);
     grown[rewrite->image_count++] = (NewImage){copy, size, image, texture};
-    return texture;
+    return image;
+}
+
+int rewrite_texture(Rewrite *rewrite, const void *png, size_t size, int like, WeftError *error) {
+    json_t *textures = list(rewrite->root, "textures");
+    const int texture = (int)json_array_size(textures), image = image_add(rewrite, png, size, texture, error);
+    if (image < 0 || json_array_append_new(textures, texture_make(rewrite, image, like)) == 0)
+        return image < 0 ? -1 : texture;
+    fail(error, WEFT_MESSAGE_MEMORY, rewrite->asset->name, NULL);
+    return -1;
+}
+
+WeftResult rewrite_levels(Rewrite *rewrite, const void *ktx2, size_t size, int texture, WeftError *error) {
+    static const char name[] = "KHR_texture_basisu";
+    json_t *object = json_array_get(json_object_get(rewrite->root, "textures"), (size_t)texture);
+    const int image = image_add(rewrite, ktx2, size, -1, error);
+    if (image < 0) return WEFT_RESOURCES;
+    if (!json_object_get(object, "extensions")) json_object_set_new(object, "extensions", json_object());
+    json_t *offer = json_object();
+    if (json_object_set_new(offer, "source", json_integer(image)) != 0 ||
+        json_object_set_new(json_object_get(object, "extensions"), name, offer) != 0)
+        return fail(error, WEFT_MESSAGE_MEMORY, rewrite->asset->name, NULL);
+    return rewrite_uses(rewrite, name, error);
 }
 
 static WeftResult encode(const WeftImage *image, bool data, const char *name, char **bytes, size_t *size,
@@ -109,7 +130,7 @@ static int added_before(const Rewrite *rewrite, const char *bytes, size_t size, 
     for (int k = 0; k < rewrite->image_count; k++) {
         const NewImage *old = &rewrite->images[k];
         const json_t *its = sampler_of(rewrite, old->texture);
-        if (old->size == size && memcmp(old->png, bytes, size) == 0 && (its == sampler || json_equal(its, sampler)))
+        if (old->size == size && memcmp(old->bytes, bytes, size) == 0 && (its == sampler || json_equal(its, sampler)))
             return old->texture;
     }
     return -1;
@@ -137,16 +158,17 @@ static bool takes_bytes(const Saving *saving) {
 
 static void image_put(Saving *saving, const NewImage *image) {
     json_t *object = json_array_get(json_object_get(saving->root, "images"), (size_t)image->index);
+    const char *media = image_media_type(image->bytes, image->size);
     if (takes_bytes(saving)) {
-        saving_put(saving, object, "mimeType", json_string("image/png"));
-        saving_put(saving, object, "bufferView", json_integer(saving_view(saving, image->png, image->size, 0)));
+        saving_put(saving, object, "mimeType", json_string(media));
+        saving_put(saving, object, "bufferView", json_integer(saving_view(saving, image->bytes, image->size, 0)));
         return;
     }
     char end[32];
-    snprintf(end, sizeof end, "-%d.png", image->index);
+    snprintf(end, sizeof end, "-%d.%s", image->index, strchr(media, '/') + 1);
     const char *path = saving_beside(saving, end), *uri = path ? saving_uri(saving, path) : NULL;
     if (uri) saving_put(saving, object, "uri", json_string(uri));
-    if (uri) saving_write(saving, path, image->png, image->size, NULL, 0);
+    if (uri) saving_write(saving, path, image->bytes, image->size, NULL, 0);
 }
 
 /* Writes the bytes of the BIN chunk to a file. */

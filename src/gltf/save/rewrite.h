@@ -10,7 +10,7 @@
 
 /* An image that the file did not have. */
 typedef struct NewImage {
-    unsigned char *png; /* owned */
+    unsigned char *bytes; /* of a PNG, or of a KTX 2 file; owned */
     size_t size;
     int index;   /* index in "images" */
     int texture; /* index in "textures" */
@@ -34,6 +34,10 @@ int rewrite_texture(Rewrite *rewrite, const void *png, size_t size, int like, We
 /* Works as rewrite_texture with an image of U8 or U16, and sets *texture to the index. data: its colours are plain
  * numbers. An equal image that was added before with an equal sampler keeps its texture, so that uses share it. */
 WeftResult rewrite_image(Rewrite *rewrite, const WeftImage *image, bool data, int like, int *texture, WeftError *error);
+
+/* Appends a KTX 2 file to "images", whose bytes are copied, and lets a texture name it by KHR_texture_basisu beside its
+ * plain picture. */
+WeftResult rewrite_levels(Rewrite *rewrite, const void *ktx2, size_t size, int texture, WeftError *error);
 
 /* Adds an extension to extensionsUsed unless it is there; the second function removes it from there and from
  * extensionsRequired. */

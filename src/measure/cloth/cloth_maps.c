@@ -9,7 +9,7 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/thread.h"
-#include "measure/cloth/map_look.h"
+#include "measure/cloth/map_levels.h"
 #include "scene/record/material.h"
 #include "shading/dialect/tone.h"
 #include "shading/material/choice.h"
@@ -18,16 +18,17 @@
 static const float SLUB_NODES_LEAST = 0.1f; /* per crossing: of a slub that is no longer than a tile */
 enum { MAP_COLOR, MAP_NORMAL, MAP_ROUGHNESS, MAP_ANISOTROPY, MAP_HEIGHT, MAP_COUNT };
 enum {
-    CYCLE_LEAST = 16,  /* threads along a map's side, at least */
-    SIDE_MAX = 8192,   /* texels along a map's side, at most */
-    FOLDER_MOST = 4000 /* bytes of a folder's name */
+    CYCLE_LEAST = 16,   /* threads along a map's side, at least */
+    SIDE_MAX = 8192,    /* texels along a map's side, at most */
+    FOLDER_MOST = 4000, /* bytes of a folder's name */
+    PATH_SIZE = 4096,
+    BLOCK = 4 /* texels of a block of UASTC, which glTF wants to divide a side */
 };
 
 static const struct {
-    const char *file;
+    const char *name;
     int channels;
-} kinds[MAP_COUNT] = {
-    {"base_color.png", 4}, {"normal.png", 3}, {"occlusion_roughness.png", 3}, {"anisotropy.png", 3}, {"height.png", 1}};
+} kinds[MAP_COUNT] = {{"base_color", 4}, {"normal", 3}, {"occlusion_roughness", 3}, {"anisotropy", 3}, {"height", 1}};
 
 static const char back_name[] = "back-"; /* begins the names of the other face's files */
 
@@ -36,6 +37,7 @@ typedef struct MapBake {
     MapGrid grid;
     const char *name; /* prefix of the files */
     bool holed;       /* gaps are holes, not black */
+    bool leveled;     /* all maps but the height are KTX 2 files with mip levels of their own */
     MapLook look;
     WeftImage maps[MAP_COUNT];
 } MapBake;
@@ -79,37 +81,103 @@ static void bake_row(void *user, int row, int thread) {
     }
 }
 
+/* Returns the suffix of a map's file. */
+static const char *suffix_of(const MapBake *b, int map) { return b->leveled && map != MAP_HEIGHT ? "ktx2" : "png"; }
+
+static void path_of(const MapBake *b, const char *folder, int map, char path[PATH_SIZE]) {
+    snprintf(path, PATH_SIZE, "%.4000s/%s%s.%s", folder, b->name, kinds[map].name, suffix_of(b, map));
+}
+
 static WeftResult write_maps(MapBake *b, const char *folder, WeftError *error) {
     WeftResult result = WEFT_OK;
-    for (int k = 0; k < MAP_COUNT && result == WEFT_OK; k++) {
-        char path[4096];
-        snprintf(path, sizeof path, "%.4000s/%s%s", folder, b->name, kinds[k].file);
+    for (int k = b->leveled ? MAP_HEIGHT : 0; k < MAP_COUNT && result == WEFT_OK; k++) {
+        char path[PATH_SIZE];
+        path_of(b, folder, k, path);
         result = weft_image_write_as(path, &b->maps[k], &(WeftImageWriting){.data = k != MAP_COLOR}, error);
     }
     return result;
 }
 
+/* The pictures of a level of all maps but the height. */
+typedef struct LevelPictures {
+    const MapLevels *levels;
+    int level;
+    WeftImage *maps; /* MAP_LEVEL_MAPS, each at the level's place among MAP_LEVELS_MOST */
+} LevelPictures;
+
+static void picture_row(void *user, int row, int thread) {
+    const LevelPictures *self = user;
+    const int width = self->levels->items[self->level].width;
+    (void)thread;
+    for (int column = 0; column < width; column++) {
+        unsigned char texel[MAP_LEVEL_MAPS][4];
+        map_level_texel(self->levels, self->level, column, row, texel);
+        for (int k = 0; k < MAP_LEVEL_MAPS; k++) {
+            const size_t channels = (size_t)kinds[k].channels, at = (size_t)row * (size_t)width + (size_t)column;
+            unsigned char *pixels = self->maps[k * MAP_LEVELS_MOST + self->level].pixels;
+            memcpy(pixels + at * channels, texel[k], channels);
+        }
+    }
+}
+
+/* Writes the levels as KTX 2 files. */
+static WeftResult write_levels(const MapBake *b, const MapLevels *levels, const char *folder, WeftError *error) {
+    WeftImage images[MAP_LEVEL_MAPS * MAP_LEVELS_MOST] = {{0}};
+    LevelPictures pictures = {.levels = levels, .maps = images};
+    WeftResult result = WEFT_OK;
+    for (int level = 0; level < levels->count && result == WEFT_OK; level++) {
+        const MapLevel *at = &levels->items[level];
+        for (int k = 0; k < MAP_LEVEL_MAPS && result == WEFT_OK; k++)
+            result = weft_image_create(at->width, at->height, kinds[k].channels, WEFT_PIXEL_U8,
+                                       &images[k * MAP_LEVELS_MOST + level], error);
+        pictures.level = level;
+        if (result == WEFT_OK) parallel_for(0, at->height, picture_row, &pictures);
+    }
+    for (int k = 0; k < MAP_LEVEL_MAPS && result == WEFT_OK; k++) {
+        const WeftImage *first = &images[k * MAP_LEVELS_MOST];
+        const WeftImageWriting how = {.data = k != MAP_COLOR, .levels = first + 1, .level_count = levels->count - 1};
+        char path[PATH_SIZE];
+        path_of(b, folder, k, path);
+        result = weft_image_write_as(path, first, &how, error);
+    }
+    for (int k = 0; k < MAP_LEVEL_MAPS * MAP_LEVELS_MOST; k++) weft_image_free(&images[k]);
+    return result;
+}
+
+/* Names the file of a map in a material. */
+static void texture_put(FILE *stream, const MapBake *b, int map) {
+    fprintf(stream, "\"texture\": \"%s%s.%s\"", b->name, kinds[map].name, suffix_of(b, map));
+}
+
+/* An input of a material that has a map: its channel, NULL: all; and a factor, if it has one. */
+typedef struct MapInput {
+    const char *name;
+    int map;
+    const char *channel;
+    const float *factor;
+} MapInput;
+
 /* Writes the inputs of a face, each with its map; place: its size in texture coordinates. */
 static void write_face(FILE *stream, const MapBake *b, const char *place) {
     const MapLook *look = &b->look;
-    fprintf(stream, "    \"base_color\": {\"texture\": \"%s%s\", %s},\n", b->name, kinds[MAP_COLOR].file, place);
-    if (b->holed && !b->grid.back)
-        fprintf(stream,
-                "    \"opacity\": {\"texture\": \"%s%s\", \"channel\": \"a\", %s},\n    \"alpha_mode\": "
-                "\"blend\",\n",
-                b->name, kinds[MAP_COLOR].file, place);
-    fprintf(stream, "    \"normal\": {\"texture\": \"%s%s\", \"factor\": %.4g, %s},\n", b->name, kinds[MAP_NORMAL].file,
-            (double)look->normal, place);
-    fprintf(stream, "    \"occlusion\": {\"texture\": \"%s%s\", \"channel\": \"r\", \"factor\": %.4g, %s},\n", b->name,
-            kinds[MAP_ROUGHNESS].file, (double)look->occlusion, place);
-    fprintf(stream, "    \"roughness\": {\"texture\": \"%s%s\", \"channel\": \"g\", %s},\n", b->name,
-            kinds[MAP_ROUGHNESS].file, place);
-    fprintf(stream, "    \"metallic\": {\"texture\": \"%s%s\", \"channel\": \"b\", %s},\n", b->name,
-            kinds[MAP_ROUGHNESS].file, place);
-    fprintf(stream, "    \"anisotropy\": {\"texture\": \"%s%s\", \"channel\": \"b\", %s},\n", b->name,
-            kinds[MAP_ANISOTROPY].file, place);
-    fprintf(stream, "    \"anisotropy_direction\": {\"texture\": \"%s%s\", %s},\n", b->name, kinds[MAP_ANISOTROPY].file,
-            place);
+    const MapInput inputs[] = {{"base_color", MAP_COLOR, NULL, NULL},
+                               {"normal", MAP_NORMAL, NULL, &look->normal},
+                               {"occlusion", MAP_ROUGHNESS, "r", &look->occlusion},
+                               {"roughness", MAP_ROUGHNESS, "g", NULL},
+                               {"metallic", MAP_ROUGHNESS, "b", NULL},
+                               {"anisotropy", MAP_ANISOTROPY, "b", NULL},
+                               {"anisotropy_direction", MAP_ANISOTROPY, NULL, NULL},
+                               {"opacity", MAP_COLOR, "a", NULL}}; /* the last, for it is not always there */
+    const bool holes = b->holed && !b->grid.back;
+    for (size_t k = 0; k < sizeof inputs / sizeof *inputs - (holes ? 0 : 1); k++) {
+        const MapInput *input = &inputs[k];
+        fprintf(stream, "    \"%s\": {", input->name);
+        texture_put(stream, b, input->map);
+        if (input->channel) fprintf(stream, ", \"channel\": \"%s\"", input->channel);
+        if (input->factor) fprintf(stream, ", \"factor\": %.4g", (double)*input->factor);
+        fprintf(stream, ", %s},\n", place);
+    }
+    if (holes) fprintf(stream, "    \"alpha_mode\": \"blend\",\n");
     fprintf(stream,
             "    \"ior\": 1.5,\n    \"specular\": %.4g,\n    \"sheen_color\": [%.4g, %.4g, %.4g],\n"
             "    \"sheen_roughness\": %.4g,\n    \"double_sided\": true",
@@ -133,11 +201,11 @@ static WeftResult write_material(const MapBake faces[2], const char *place, cons
 }
 
 /* Gives the sides of maps of about pixels^2 square texels over a cloth of that size, each 16 to SIDE_MAX. A tall repeat
- * gets maps narrower than `pixels`, so that it takes no more memory than a wide one. */
-static void sides_of(int pixels, const double size[2], int sides[2]) {
+ * gets maps narrower than `pixels`, so that it takes no more memory than a wide one. step: divides both. */
+static void sides_of(int pixels, const double size[2], int step, int sides[2]) {
     const double q = (sqrt)(size[0] / size[1]), side = fmin(pixels, SIDE_MAX / fmax(q, 1.0 / q));
-    sides[0] = (int)fmax(rint(side * q), 16.0);
-    sides[1] = (int)fmax(rint(side / q), 16.0);
+    sides[0] = (int)fmax(step * rint(side * q / step), 16.0);
+    sides[1] = (int)fmax(step * rint(side / q / step), 16.0);
 }
 
 /* Returns the number of threads of whole repeats, at least CYCLE_LEAST. */
@@ -145,9 +213,10 @@ static int cycle_of(int count) { return count * ((CYCLE_LEAST + count - 1) / cou
 
 /* Removes a folder that was made for maps of which not all could be written. */
 static void folder_remove(const char *folder) {
-    for (int k = 0; k < 2 * MAP_COUNT; k++) {
-        char path[4096];
-        snprintf(path, sizeof path, "%.4000s/%s%s", folder, k < MAP_COUNT ? "" : back_name, kinds[k % MAP_COUNT].file);
+    for (int k = 0; k < 4 * MAP_COUNT; k++) {
+        const MapBake b = {.name = k / MAP_COUNT % 2 ? back_name : "", .leveled = k / MAP_COUNT / 2 != 0};
+        char path[PATH_SIZE];
+        path_of(&b, folder, k % MAP_COUNT, path);
         unlink(path);
     }
     rmdir(folder);
@@ -196,9 +265,31 @@ static bool is_holed(const WeftMaterial *material, const WeftCloth *cloth) {
     return gaps && material->alpha_mode != WEFT_ALPHA_OPAQUE;
 }
 
-/* Fits and writes both faces of a cloth, for a viewer of a profile. */
-static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *const cloths[2], int profile, int pixels,
-                             double metres, const char *folder, WeftBaked *found, WeftError *error) {
+/* Fits the levels of a face to its look, and writes them. */
+static WeftResult level_face(MapBake *b, const WeftMaterial *material, const WeftCloth *cloth, int profile,
+                             const char *folder, WeftBaked *found, WeftError *error) {
+    MapLevels levels;
+    WeftResult result = map_levels_find(&b->grid, material, cloth, profile, b->holed, &b->look, &levels, error);
+    if (result == WEFT_OK) result = write_levels(b, &levels, folder, error);
+    if (result == WEFT_OK) {
+        b->look.normal = levels.normal;
+        b->look.occlusion = 1.0f; /* its strength is in the map of each level */
+        for (int k = 1; k < levels.count; k++) found->levels += levels.items[k].error / (levels.count - 1);
+    }
+    map_levels_free(&levels);
+    return result;
+}
+
+/* The viewer that maps are made for. */
+typedef struct MapViewer {
+    int profile, pixels;
+    double metres;
+    bool leveled;
+} MapViewer;
+
+/* Fits and writes both faces of a cloth, for a viewer. The other face, which glTF has no place for, has no levels. */
+static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *const cloths[2], const MapViewer *viewer,
+                             const char *folder, WeftBaked *found, WeftError *error) {
     const WeftCloth *front = cloths[0];
     const int threads[2] = {cycle_of(front->weave.warps), cycle_of(front->weave.picks)};
     const double size[2] = {front->size[0] * threads[0] / front->weave.warps,
@@ -209,13 +300,19 @@ static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *cons
     MapBake faces[2];
     WeftBaked baked[2];
     WeftResult result = WEFT_OK;
-    sides_of(pixels, size, sides);
-    snprintf(place, sizeof place, "\"scale\": [%.9g, %.9g]", metres / size[0], metres / size[1]);
+    sides_of(viewer->pixels, size, viewer->leveled ? BLOCK : 1, sides);
+    snprintf(place, sizeof place, "\"scale\": [%.9g, %.9g]", viewer->metres / size[0], viewer->metres / size[1]);
     for (int k = 0; k < 2 && result == WEFT_OK; k++) {
         MapBake *b = &faces[k];
-        *b = (MapBake){.grid = grid_of(cloths[k], k == 1, threads, sides), .name = k ? back_name : "", .holed = holed};
-        result = map_look_find(&b->grid, material, cloths[k], profile, holed, &b->look, &baked[k], error);
+        *b = (MapBake){.grid = grid_of(cloths[k], k == 1, threads, sides),
+                       .name = k ? back_name : "",
+                       .holed = holed,
+                       .leveled = viewer->leveled && k == 0};
+        baked[k] = (WeftBaked){.levels = 0.0};
+        result = map_look_find(&b->grid, material, cloths[k], viewer->profile, holed, &b->look, &baked[k], error);
         if (result == WEFT_OK) result = bake_face(b, folder, error);
+        if (result == WEFT_OK && b->leveled)
+            result = level_face(b, material, cloths[k], viewer->profile, folder, &baked[k], error);
     }
     if (result != WEFT_OK) return result;
     if (found) *found = baked[0];
@@ -224,9 +321,13 @@ static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *cons
 
 WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *cloth, const WeftBaking *baking,
                               const char *folder, WeftBaked *found, WeftError *error) {
-    const int pixels = baking->pixels ? baking->pixels : 1024, profile = profile_of(baking, error);
-    const double metres = fabs(baking->metres) <= 0.0 ? 1.0 : baking->metres;
-    if (profile < 0) return WEFT_USAGE;
+    const MapViewer viewer = {.profile = profile_of(baking, error),
+                              .pixels = baking->pixels ? baking->pixels : 1024,
+                              .metres = fabs(baking->metres) <= 0.0 ? 1.0 : baking->metres,
+                              .leveled = baking->levels != 0};
+    const int pixels = viewer.pixels;
+    const double metres = viewer.metres;
+    if (viewer.profile < 0) return WEFT_USAGE;
     if (!cloth) return fail(error, WEFT_MESSAGE_DESC, "maps", "the material is not woven");
     if (pixels < 16 || pixels > SIDE_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "maps", "%d pixels; 16 to %d are possible", pixels, SIDE_MAX);
@@ -236,7 +337,7 @@ WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *clo
     if (!made && errno != EEXIST) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
     WeftCloth *other = cloth_other_face(cloth);
     const WeftCloth *const cloths[2] = {cloth, other};
-    const WeftResult result = other ? bake_faces(material, cloths, profile, pixels, metres, folder, found, error)
+    const WeftResult result = other ? bake_faces(material, cloths, &viewer, folder, found, error)
                                     : fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
     weft_cloth_free(other);
     if (result != WEFT_OK && made) folder_remove(folder);

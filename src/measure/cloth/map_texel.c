@@ -71,5 +71,7 @@ float map_texel_color(const MapTexel *t, int c, float shade, bool holed) {
 
 float map_texel_stretch(const MapTexel *t, float *angle) {
     *angle = 0.5f * atan2f(t->along[1], t->along[0]) + PI / 2.0f;
+    if (*angle > 0.75f * PI)
+        *angle -= PI; /* neither system lies where opposite ones meet, so that means of texels hold */
     return sqrtf(t->along[0] * t->along[0] + t->along[1] * t->along[1]) / fmaxf(t->cover, 1e-6f);
 }

@@ -17,12 +17,12 @@
 
 /* The targets, in the order of their bits below. */
 static const WeftTarget targets[] = {
-    {"khronos", "any viewer that follows glTF's own text: nothing is taken out", "khronos", "khronos"},
-    {"three", "three.js 0.187, GLTFLoader", "three", "three"},
-    {"babylon", "Babylon.js 9.28, PBRMaterial", "babylon", "three"},
-    {"filament", "Filament 1.53.4, its build for the web too: no anisotropy", "filament-sheen", "filament-sheen"},
-    {"blender", "Blender 4 and later, its importer and Principled BSDF", "cycles-principled", "cycles-principled"},
-    {"core", "engines without extensions: metalness and roughness alone", "core", "core"},
+    {"khronos", "any viewer that follows glTF's own text: nothing is taken out", "khronos", 1, "khronos"},
+    {"three", "three.js 0.187, GLTFLoader", "three", 1, "three"},
+    {"babylon", "Babylon.js 9.28, PBRMaterial", "babylon", 0, "three"},
+    {"filament", "Filament 1.53.4, its build for the web too: no anisotropy", "filament-sheen", 1, "filament-sheen"},
+    {"blender", "Blender 4 and later, its importer and Principled BSDF", "cycles-principled", 0, "cycles-principled"},
+    {"core", "engines without extensions: metalness and roughness alone", "core", 0, "core"},
 };
 enum { TARGETS = sizeof targets / sizeof *targets };
 enum { KHRONOS = 1, THREE = 2, BABYLON = 4, FILAMENT = 8, BLENDER = 16, CORE = 32, VIEWERS = 31 };

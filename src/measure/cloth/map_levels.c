@@ -1,0 +1,253 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+#include "base/thread.h"
+#include "image/halve.h"
+#include "measure/cloth/map_fit.h"
+#include "measure/cloth/map_levels.h"
+#include "shading/dialect/tone.h"
+
+enum { LEVEL_AXES = 4 };
+static const int level_axes[LEVEL_AXES] = {AXIS_METALLIC, AXIS_ROUGHNESS, AXIS_ANISOTROPY, AXIS_NORMAL};
+static const SearchAxis level_ranges[LEVEL_AXES] = {{0.0, 1.0}, {0.5, 2.0}, {0.0, 1.4}, {0.02, 1.5}};
+/* Contrast may be off by this factor for nothing; a change of metallic from one level to the next costs so much, since
+ * viewers mix both levels. */
+static const double contrast_free = 1.2, metallic_price = 0.02;
+
+static float *plane_at(const MapLevel *level, MapPlane plane, size_t texel) { return level->planes[plane] + 4 * texel; }
+
+typedef struct FirstLevel {
+    const MapGrid *grid;
+    const MapLook *look;
+    MapLevel *level;
+    bool holed;
+} FirstLevel;
+
+/* Adds the highlight of a texel to a matrix of squares. */
+static void facets_add(float *to, float roughness, float strength, float angle) {
+    const float b = roughness * roughness, a = b + (1.0f - b) * strength * strength;
+    const float x = cosf(angle), y = sinf(angle), aa = a * a, bb = b * b;
+    to[0] += aa * x * x + bb * y * y;
+    to[1] += (aa - bb) * x * y;
+    to[2] += aa * y * y + bb * x * x;
+}
+
+static void row_make(void *user, int row, int thread) {
+    const FirstLevel *self = user;
+    const MapLook *look = self->look;
+    (void)thread;
+    for (int column = 0; column < self->grid->width; column++) {
+        const MapTexel t = map_texel(self->grid, column, row);
+        const size_t at = (size_t)row * (size_t)self->grid->width + (size_t)column;
+        const float cover = fmaxf(t.cover, 1e-6f), x = t.slope[0] / cover, y = t.slope[1] / cover;
+        const float n = 1.0f / sqrtf(1.0f + x * x + y * y);
+        float angle, *color = plane_at(self->level, PLANE_COLOR, at), *normal = plane_at(self->level, PLANE_NORMAL, at);
+        const float strength = fminf(look->anisotropy * map_texel_stretch(&t, &angle), 1.0f);
+        for (int c = 0; c < 3; c++)
+            color[c] = map_texel_color(&t, c, look->shade, self->holed) * (self->holed ? t.cover : 1.0f);
+        color[3] = t.cover;
+        normal[0] = x * n, normal[1] = y * n, normal[2] = n, normal[3] = t.open / cover;
+        facets_add(plane_at(self->level, PLANE_FACETS, at), fminf(look->roughness * t.roughness / cover, 1.0f),
+                   strength, angle);
+    }
+}
+
+static bool level_alloc(MapLevel *level, int width, int height) {
+    bool room = true;
+    level->width = width;
+    level->height = height;
+    for (int p = 0; p < PLANES; p++) {
+        level->planes[p] = alloc_array(4 * (size_t)width * (size_t)height, sizeof(float));
+        room = room && level->planes[p];
+    }
+    return room;
+}
+
+/* Makes the texels of all levels. Returns false if memory is short. */
+static bool texels_make(const MapGrid *grid, const MapLook *look, MapLevels *levels) {
+    MapLevel *first = &levels->items[0];
+    if (!level_alloc(first, grid->width, grid->height)) return false;
+    FirstLevel job = {.grid = grid, .look = look, .level = first, .holed = levels->holed};
+    parallel_for(0, grid->height, row_make, &job);
+    levels->count = 1;
+    for (MapLevel *at = first; (at->width > 1 || at->height > 1) && levels->count < MAP_LEVELS_MOST; at++) {
+        levels->count++;
+        if (!level_alloc(at + 1, halved(at->width), halved(at->height))) return false;
+        for (int p = 0; p < PLANES; p++) halve_f32(at->planes[p], at->width, at->height, at[1].planes[p]);
+    }
+    return true;
+}
+
+/* Reads the axes of the mean highlight: roughness, the strength by which it is longer, and the angle in -45 to 135
+ * degrees, where neither system of threads lies at the seam. */
+static void facets_read(const float *a, float *roughness, float *strength, float *angle) {
+    const float middle = 0.5f * (a[0] + a[2]), half = 0.5f * (a[0] - a[2]), away = sqrtf(half * half + a[1] * a[1]);
+    const float along = sqrtf(fminf(middle + away, 1.0f)), across = sqrtf(fmaxf(middle - away, 1e-8f));
+    *roughness = sqrtf(across);
+    *strength = sqrtf(fmaxf(along - across, 0.0f) / fmaxf(1.0f - across, 1e-6f));
+    *angle = 0.5f * atan2f(a[1], half);
+    if (*angle < -0.25f * PI) *angle += PI;
+}
+
+static LookTexel look_texel(const MapLevels *levels, const MapLevel *level, size_t at) {
+    const float *color = plane_at(level, PLANE_COLOR, at), *normal = plane_at(level, PLANE_NORMAL, at);
+    LookTexel t = {.light = 1.0f, .cover = levels->holed ? color[3] : 1.0f};
+    float angle;
+    for (int c = 0; c < 3; c++) {
+        t.color[c] = color[c] / fmaxf(t.cover, 1e-6f);
+        t.normal[c] = normal[c];
+    }
+    facets_read(plane_at(level, PLANE_FACETS, at), &t.roughness, &t.stretch, &angle);
+    t.along[0] = cosf(angle), t.along[1] = sinf(angle);
+    return t;
+}
+
+/* Chooses texels for the blocks, spread evenly, and the places of their threads. */
+static void blocks_choose(MapFit *fit, const MapLevels *levels, const MapLevel *level, MapPlace places[BLOCKS]) {
+    const int texels = level->width * level->height;
+    fit->count = texels < BLOCKS ? texels : BLOCKS;
+    for (int b = 0; b < fit->count; b++) {
+        int column = b % level->width, row = b / level->width;
+        if (texels > BLOCKS) {
+            column = (int)(fmod(0.7548776662466927 * (b + 1), 1.0) * level->width);
+            row = (int)(fmod(0.5698402909980532 * (b + 1), 1.0) * level->height);
+        }
+        const float wide = (float)fit->grid->width / (float)level->width,
+                    high = (float)fit->grid->height / (float)level->height;
+        places[b] = (MapPlace){(float)column * wide, (float)row * high, wide, high};
+        fit->blocks[b].texels[0] = look_texel(levels, level, (size_t)row * (size_t)level->width + (size_t)column);
+    }
+}
+
+/* Gives the blocks the mean colour and normal of the whole, which the last level is. */
+static void blocks_center(MapFit *fit, const LookTexel *whole) {
+    LookTexel mean = {.cover = 0.0f};
+    const float part = 1.0f / (float)fit->count;
+    for (int b = 0; b < fit->count; b++) {
+        const LookTexel *t = &fit->blocks[b].texels[0];
+        for (int c = 0; c < 3; c++) mean.color[c] += part * t->color[c], mean.normal[c] += part * t->normal[c];
+    }
+    for (int c = 0; c < 3; c++) fit->color_most[c] = 0.0;
+    for (int b = 0; b < fit->count; b++) {
+        LookTexel *t = &fit->blocks[b].texels[0];
+        for (int a = 0; a < 2; a++) t->normal[a] += whole->normal[a] - mean.normal[a];
+        for (int c = 0; c < 3; c++) {
+            t->color[c] *= whole->color[c] / fmaxf(mean.color[c], 1e-6f);
+            fit->color_most[c] = fmax(fit->color_most[c], (double)t->color[c]);
+        }
+    }
+}
+
+/* A level that is fitted. */
+typedef struct LevelFit {
+    MapFit *fit;
+    double x[AXES], before; /* before: metallic of the level before */
+} LevelFit;
+
+static double level_error(void *user, double *x, SearchCare care) {
+    LevelFit *self = user;
+    double sky;
+    (void)care;
+    for (int k = 0; k < LEVEL_AXES; k++) self->x[level_axes[k]] = x[k];
+    const double error = map_fit_error(self->fit, self->x, &sky);
+    return error + map_fit_price(self->fit, sky, contrast_free) +
+           metallic_price * fabs(self->x[AXIS_METALLIC] - self->before);
+}
+
+/* Finds the numbers of a level. before: those of the level before. mean: of the occlusion map. */
+static void level_find(LevelFit *self, const MapLevel *before, MapLevel *level, float mean) {
+    double x[LEVEL_AXES] = {(double)before->metallic, (double)before->roughness, (double)before->anisotropy,
+                            (double)before->relief},
+           sky;
+    Search search = {.axes = LEVEL_AXES, .error = level_error, .user = self, .grid = 24, .descents = 2, .most = 60};
+    memcpy(search.axis, level_ranges, sizeof level_ranges);
+    self->before = (double)before->metallic;
+    self->fit->contrast_goal = map_fit_contrast(self->fit, true);
+    search_run(&search, x, NULL);
+    for (int k = 0; k < LEVEL_AXES; k++) self->x[level_axes[k]] = x[k];
+    level->error = map_fit_error(self->fit, self->x, &sky);
+    level->sky = sky - 1.0;
+    level->contrast = self->fit->contrast / fmax(self->fit->contrast_goal, 1e-6);
+    level->metallic = (float)x[0], level->roughness = (float)x[1], level->anisotropy = (float)x[2];
+    level->relief = (float)x[3];
+    for (int c = 0; c < 3; c++) level->color[c] = (float)self->fit->gains[c];
+    level->occlusion = (float)fmin(fmax((1.0 - 1.0 / fmax(sky, 1e-3)) / fmax(1.0 - (double)mean, 1e-3), 0.0), 1.0);
+}
+
+/* Sets what all levels share: sheen and specular of the look. */
+static void look_hold(LevelFit *self, const MapLook *look) {
+    MapFit *fit = self->fit;
+    const float most = fmaxf(look->sheen[0], fmaxf(look->sheen[1], look->sheen[2]));
+    fit->fine = 1;
+    fit->coarse = false;
+    fit->own_sheen = true;
+    for (int c = 0; c < 3; c++) fit->tints[c] = most > 0.0f ? (double)(look->sheen[c] / most) : 0.0;
+    self->x[AXIS_SHADE] = 0.0;
+    self->x[AXIS_SPECULAR] = (double)look->specular;
+    self->x[AXIS_SHEEN] = (double)most;
+    self->x[AXIS_SHEEN_ROUGHNESS] = (double)look->sheen_roughness;
+}
+
+WeftResult map_levels_find(const MapGrid *grid, const WeftMaterial *material, const WeftCloth *cloth, int profile,
+                           bool holed, const MapLook *look, MapLevels *out, WeftError *error) {
+    enum { FEW = 4, MANY = 8 }; /* points along a side of a place */
+    LevelFit self = {.fit = NULL};
+    MapPlace places[BLOCKS];
+    *out = (MapLevels){.holed = holed, .normal = look->normal};
+    if (!texels_make(grid, look, out)) return fail(error, WEFT_MESSAGE_MEMORY, "maps", NULL);
+    const WeftResult result = map_fit_create(grid, material, cloth, profile, holed, &self.fit, error);
+    if (result == WEFT_OK) {
+        MapLevel *first = &out->items[0];
+        *first = (MapLevel){.width = first->width,
+                            .height = first->height,
+                            .metallic = look->metallic,
+                            .roughness = 1.0f,
+                            .anisotropy = 1.0f,
+                            .relief = look->normal,
+                            .occlusion = look->occlusion,
+                            .planes = {first->planes[0], first->planes[1], first->planes[2]},
+                            .color = {look->color[0], look->color[1], look->color[2]}};
+        const MapLevel *last = &out->items[out->count - 1];
+        const LookTexel whole = look_texel(out, last, 0);
+        look_hold(&self, look);
+        for (int k = 1; k < out->count; k++) {
+            MapLevel *level = &out->items[k];
+            blocks_choose(self.fit, out, level, places);
+            blocks_center(self.fit, &whole);
+            map_fit_near(self.fit, places, k < 3 ? FEW : MANY);
+            level_find(&self, level - 1, level, last->planes[PLANE_NORMAL][3]);
+            out->normal = fmaxf(out->normal, level->relief);
+        }
+    }
+    map_fit_free(self.fit);
+    return result;
+}
+
+void map_levels_free(MapLevels *levels) {
+    for (int k = 0; k < levels->count; k++)
+        for (int p = 0; p < PLANES; p++) free(levels->items[k].planes[p]);
+    levels->count = 0;
+}
+
+static unsigned char byte_of(float x) { return (unsigned char)lrintf(255.0f * fminf(fmaxf(x, 0.0f), 1.0f)); }
+
+void map_level_texel(const MapLevels *levels, int level, int column, int row, unsigned char maps[MAP_LEVEL_MAPS][4]) {
+    const MapLevel *from = &levels->items[level];
+    const size_t at = (size_t)row * (size_t)from->width + (size_t)column;
+    const LookTexel t = look_texel(levels, from, at);
+    const float *normal = plane_at(from, PLANE_NORMAL, at), scale = from->relief / fmaxf(levels->normal, 1e-6f);
+    const float x = scale * normal[0], y = scale * normal[1], n = 1.0f / sqrtf(x * x + y * y + normal[2] * normal[2]);
+    for (int c = 0; c < 3; c++) maps[0][c] = byte_of(tone_encode(fminf(from->color[c] * t.color[c], 1.0f)));
+    maps[0][3] = byte_of(plane_at(from, PLANE_COLOR, at)[3]);
+    maps[1][0] = byte_of(0.5f + 0.5f * x * n), maps[1][1] = byte_of(0.5f + 0.5f * y * n);
+    maps[1][2] = byte_of(0.5f + 0.5f * normal[2] * n);
+    maps[2][0] = byte_of(1.0f - from->occlusion * (1.0f - normal[3]));
+    maps[2][1] = byte_of(from->roughness * t.roughness);
+    maps[2][2] = byte_of(from->metallic);
+    maps[3][0] = byte_of(0.5f + 0.5f * t.along[0]), maps[3][1] = byte_of(0.5f + 0.5f * t.along[1]);
+    maps[3][2] = byte_of(from->anisotropy * t.stretch);
+    maps[1][3] = maps[2][3] = maps[3][3] = 255;
+}
