@@ -4,13 +4,15 @@ export const picture = {width: 160, height: 120};
 
 // packages: from npm. scripts: of node_modules, which the page loads before VIEWER.js. greeting: what it always says.
 export const viewers = {
-    three: {packages: ["three@0.187.0"], scripts: []},
+    three: {title: "three.js", packages: ["three@0.187.0"], scripts: []},
     babylon: {
+        title: "Babylon.js",
         packages: ["babylonjs@9.28.0", "babylonjs-loaders@9.28.0"],
         scripts: ["babylonjs/babylon.js", "babylonjs-loaders/babylonjs.loaders.min.js"],
         greeting: /^BJS - .* Babylon.js v9.28.0 - WebGL2$/,
     },
     filament: {
+        title: "Filament",
         packages: ["filament@1.53.4"],
         scripts: ["filament/filament.js"],
         greeting: /^(FEngine|\[WebKit\]|((Backend |FEngine )?[Ff]eature level))/,
@@ -26,7 +28,8 @@ const around = {
     sky: {sky: 1},
 };
 
-// A preset on the bend. most: by viewer, how far the columns may be off, the mean of the directional lights, and the sky.
+// A preset on the bend. most: by viewer, how far the columns may be off, the mean of the directional lights, and the sky;
+// absent: as far as they are.
 const cloth = (preset, most) => ({
     source: `preset:${preset}`, truth: ["builtin:bend", "--preset", preset], camera: bend, lights: around, most});
 
@@ -39,6 +42,19 @@ export const things = {
     velvet: cloth("velvet", {three: [0.04, 0.15], babylon: [0.03, 0.03], filament: [0.05, 0.05]}),
     denim: cloth("woven-denim", {three: [0.1, 0.06], babylon: [0.14, 0.08], filament: [0.12, 0.23]}),
     gabardine: cloth("woven-gabardine", {three: [0.12, 0.06], babylon: [0.12, 0.06], filament: [0.12, 0.12]}),
+    satin: cloth("woven-charmeuse"),
+    shantung: cloth("woven-shantung"),
+    linen: cloth("woven-linen"),
+    flannel: cloth("woven-wool"),
+    poplin: cloth("woven-poplin"),
+    corduroy: cloth("woven-corduroy"),
+    "woven-velvet": cloth("woven-velvet"),
+    tartan: cloth("woven-tartan"),
     spheres: asset("spheres.glb", [3, 30, 54], [0, 0.45, 0], 4, {three: [0.04], babylon: [0.04], filament: [0.07]}),
     chair: asset("chair.gltf", [0.2, 0.9, 1.6], [0, 0.4, 0], 40, {three: [0.03], babylon: [0.05], filament: [0.06]}),
 };
+
+// What is on a page of docs/, under one of the lights.
+export const gallery = {
+    light: "side",
+    things: ["denim", "satin", "gabardine", "linen", "flannel", "poplin", "corduroy", "woven-velvet", "tartan"]};
