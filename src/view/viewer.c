@@ -212,7 +212,7 @@ static int run(Viewer *v, char why[512]) {
         any |= presets_poll(v);
         any |= renderer_has_output(v->renderer) || reference_has_frame(v->reference) || v->opening->loader ||
                v->requests->rendered.number != shown;
-        any |= requests_can_refine(v) && v->options->mode == MODE_LIVE;
+        any |= (requests_can_refine(v) && v->options->mode == MODE_LIVE) || v->requests->glide;
         if (!v->shown->any && v->opening->opened != WEFT_OK) {
             snprintf(why, 512, "%s", v->states->frame.message);
             return (int)v->opening->opened;

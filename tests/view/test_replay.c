@@ -72,6 +72,49 @@ static void ambient_light_and_reflections_have_a_slider_each(void **state) {
     assert_true(pictures_most("1.png", "2.png") > 0.02);
 }
 
+/* ---- pictures ---- */
+
+/* The mean difference of the stage of two pictures of the window, of which the panels beside it are left out. */
+static double stage_difference(const char *a, const char *b) {
+    WeftImage x = picture_read(a), y = picture_read(b);
+    double sum = 0.0;
+    for (int k = 0; k < x.width * x.height * x.channels; k++)
+        if (k / x.channels % x.width < x.width / 2)
+            sum += fabs((double)((const unsigned char *)x.pixels)[k] - (double)((const unsigned char *)y.pixels)[k]);
+    const double mean = sum / ((double)x.width * (double)x.height);
+    weft_image_free(&x);
+    weft_image_free(&y);
+    return mean;
+}
+
+/* Frames after a turn of the camera, every third of them: the last that is in motion, then finer ones. No step is more than
+ * three quarters of all that changes, which one step was before. */
+static void a_picture_that_comes_to_rest_glides(void **state) {
+    (void)state;
+    need_gl();
+    enum { SHOTS = 40 };
+    char names[SHOTS + 1][16];
+    double steps[SHOTS];
+    int moved = 0;
+    script_begin();
+    say("wait rest\ndrag left 0.3 0.5 0.62 0.5\n");
+    for (int k = 0; k <= SHOTS; k++) {
+        snprintf(names[k], sizeof names[k], "glide%02d.png", k);
+        if (k == SHOTS) say("wait rest\n");
+        say("window %s\n", names[k]);
+    }
+    drive_through(script, LIST(UNSEEN, "builtin:cloth", "--occlusion", "0"));
+    for (int k = 0; k < SHOTS; k++) steps[k] = stage_difference(names[k], names[k + 1]);
+    for (int k = 0; k < SHOTS; k++)
+        if (steps[k] > steps[moved]) moved = k;
+    const double all = stage_difference(names[moved + 1], names[SHOTS]);
+    double most = 0.0;
+    for (int k = moved + 1; k < SHOTS; k++) most = fmax(most, steps[k]);
+    print_message("from motion to rest: %.3f of 255, in one step at most %.3f\n", all, most);
+    assert_true(all > 0.05);
+    assert_true(most < 0.75 * all);
+}
+
 /* ---- scenes ---- */
 
 static void a_broken_scene_leaves_the_one_before(void **state) {
@@ -354,6 +397,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(value_typed_into_a_slider_is_undone),
                                        cmocka_unit_test(panels_are_scaled_by_the_scale_option),
                                        cmocka_unit_test(ambient_light_and_reflections_have_a_slider_each),
+                                       cmocka_unit_test(a_picture_that_comes_to_rest_glides),
                                        cmocka_unit_test(a_broken_scene_leaves_the_one_before),
                                        cmocka_unit_test(a_saved_scene_looks_the_same),
                                        cmocka_unit_test(full_disk_is_a_message),

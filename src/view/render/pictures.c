@@ -18,7 +18,7 @@ static const double frame_seconds = 0.036; /* s, for a picture while the mouse m
 static int take_target(Renderer *self, int width, int height) {
     int k = 0;
     pthread_mutex_lock(&self->lock);
-    while (k == self->newest || k == self->shown) k++;
+    while (k == self->newest || k == self->shown || k == self->before) k++;
     pthread_mutex_unlock(&self->lock);
     if (!self->textures[k]) {
         glGenTextures(1, &self->textures[k]);

@@ -8,6 +8,7 @@
 
 #include <epoxy/gl.h>
 
+#include "base/equal.h"
 #include "base/steady_clock.h"
 #include "view/render/renderer_state.h"
 
@@ -239,7 +240,7 @@ Renderer *renderer_start(Window *window, ReferenceView *reference, const char *s
     self->reference = reference;
     self->occlusion = occlusion;
     self->shader_dir = shader_dir ? strdup(shader_dir) : NULL;
-    self->newest = self->shown = -1;
+    self->newest = self->shown = self->before = -1;
     pthread_mutex_init(&self->lock, NULL);
     clock_condition(&self->change);
     self->file_watch = file_watch_start();
@@ -308,12 +309,24 @@ bool renderer_add_task(Renderer *self, const Task *task) {
     return taken;
 }
 
+/* Returns true if two pictures have one size and show one scene through one camera. */
+static bool same_view(const RenderedFrame *a, const RenderedFrame *b) {
+    bool same = a->texture && b->texture && a->scene == b->scene && a->width == b->width && a->height == b->height;
+    for (int k = 0; k < 3; k++) same = same && is_equal(a->eye[k], b->eye[k]) && is_equal(a->target[k], b->target[k]);
+    return same && is_equal(a->fov, b->fov);
+}
+
 bool renderer_take_frame(Renderer *self, RenderedFrame *rendered) {
     pthread_mutex_lock(&self->lock);
-    bool fresh = self->fresh;
+    const bool fresh = self->fresh,
+               rests = self->rendered.effort > EFFORT_COARSE && same_view(rendered, &self->rendered);
+    const bool sharpens = rests && rendered->effort == EFFORT_COARSE;
+    const unsigned before = sharpens ? rendered->texture : rests ? rendered->before : 0;
+    if (sharpens) self->before = self->shown;
     self->fresh = false;
     if (fresh) self->shown = self->newest;
     *rendered = self->rendered;
+    rendered->before = before;
     pthread_mutex_unlock(&self->lock);
     return fresh;
 }

@@ -114,6 +114,7 @@ typedef struct RenderEvent {
 /* The latest picture and its state. */
 typedef struct RenderedFrame {
     unsigned texture; /* 0: nothing yet */
+    unsigned before;  /* picture in motion of the same view and size, which the finer one replaced; 0: none */
     int width, height;
     unsigned scene;               /* number of the scene that is shown */
     unsigned number;              /* number of the request that is shown (renderer_request) */
@@ -149,8 +150,8 @@ void renderer_set_scene(Renderer *renderer, WeftScene *scene, const SceneState *
 unsigned renderer_request(Renderer *renderer, const FrameRequest *request);
 bool renderer_add_task(Renderer *renderer, const Task *task);
 
-/* Copies the newest picture; returns true if it is newer than the last. Its texture stays as it is until the next
- * call. */
+/* Copies the newest picture over the last that was taken; returns true if it is newer. Its textures stay as they are until
+ * the next call. */
 bool renderer_take_frame(Renderer *renderer, RenderedFrame *rendered);
 
 /* Returns true if a picture or an event is ready to be taken. */

@@ -8,7 +8,7 @@
 #include "view/render/studies.h"
 #include "weft/pick.h"
 
-enum { RING = 3, TASKS = 32, EVENTS = 64, WARNINGS_SIZE = 4096 };
+enum { RING = 4, TASKS = 32, EVENTS = 64, WARNINGS_SIZE = 4096 };
 
 struct Renderer {
     Window *window;
@@ -32,8 +32,8 @@ struct Renderer {
     RenderEvent events[EVENTS];
     int event_count;
     RenderedFrame rendered;
-    int newest, shown; /* indices of `textures`; -1: none */
-    bool fresh;        /* `rendered` has changed since the window took it */
+    int newest, shown, before; /* indices of `textures`, before: of RenderedFrame; -1: none */
+    bool fresh;                /* `rendered` has changed since the window took it */
     char warnings[WARNINGS_SIZE];
     /* used by the thread alone */
     WeftScene *scene;
@@ -61,7 +61,7 @@ struct Renderer {
     double drawn_at;                        /* when that picture was drawn */
     int summed;                             /* frames in the sum */
     Study study;                            /* the sheet under way, of one material under every profile */
-    unsigned textures[RING], targets[RING]; /* one shown, one newest, one to draw into; their framebuffers */
+    unsigned textures[RING], targets[RING]; /* shown, newest, before, and one to draw into */
     int widths[RING], heights[RING];
 };
 

@@ -147,7 +147,7 @@ static void take_metered(Viewer *v) {
  * works on this one. So window and renderer work in parallel, and no picture is more than two frames old. */
 void requests_wait_frame(Viewer *v) {
     double until = clock_now() + 0.04;
-    unsigned before = v->states->requests.rendered.number;
+    unsigned before = v->states->requests.rendered.number, faded = v->states->requests.rendered.before;
     renderer_take_frame(v->renderer, &v->states->requests.rendered);
     bool waits = v->shown->any && !v->states->requests.late && v->options->mode == MODE_LIVE;
     while (waits && v->states->requests.rendered.number == before && before != v->states->requests.requested &&
@@ -156,8 +156,16 @@ void requests_wait_frame(Viewer *v) {
         renderer_take_frame(v->renderer, &v->states->requests.rendered);
     }
     v->states->requests.late = v->states->requests.rendered.number == before && before != v->states->requests.requested;
+    if (!v->states->requests.rendered.before)
+        v->states->requests.glide = 0;
+    else if (v->states->requests.rendered.before != faded)
+        v->states->requests.glide = GLIDE - 1;
+    else if (v->states->requests.glide)
+        v->states->requests.glide--;
     take_metered(v);
 }
+
+float requests_glide(const Viewer *v) { return (float)v->requests->glide / (float)GLIDE; }
 
 void requests_take_reference(Viewer *v) {
     ReferenceFrame picture;

@@ -3,7 +3,7 @@
 
 #include "view/state/viewer.h"
 
-enum { TRACE_SAMPLES = 1024 };
+enum { TRACE_SAMPLES = 1024, GLIDE = 6 };
 
 /* The kind of picture that is shown. */
 typedef enum Shows { SHOWS_NOTHING, SHOWS_DRAWN, SHOWS_TRACED } Shows;
@@ -16,6 +16,7 @@ typedef struct RequestsState {
     bool due;             /* a request must be sent even if nothing that is drawn has changed */
     double changed;       /* time of the last request that differed from the one before, s */
     bool late;            /* the renderer is busy for long: the window does not wait for it */
+    int glide;            /* frames until a picture in motion has faded out over the finer one */
     unsigned reference_texture;
     ReferenceFrame traced; /* without its image */
     Probe probe;
@@ -39,6 +40,9 @@ bool requests_can_refine(const Viewer *v);
 
 /* Takes the newest picture; waits up to 0.04 s for one if one is due. */
 void requests_wait_frame(Viewer *v);
+
+/* Returns the opacity of the picture in motion over the finer one that replaced it: it falls to 0 within GLIDE frames. */
+float requests_glide(const Viewer *v);
 void requests_take_reference(Viewer *v);
 
 /* Reads the position of a camera of the scene from the first frame drawn through it. */

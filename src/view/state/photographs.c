@@ -133,7 +133,7 @@ static void draw_in(const Viewer *v, UiBox part, float opacity) {
     const char *name = path_name(v->photographs->path);
     const float width = ui_text_width(name) + 2.0f * pad;
     ui_clip(&part);
-    ui_picture_faint(v->photographs->texture, photographs_box(v), opacity);
+    ui_picture_faint(v->photographs->texture, photographs_box(v), false, opacity);
     ui_fill(
         (UiBox){part.x + part.width - width - 8.0f * scale, part.y + part.height - 30.0f * scale, width, 22.0f * scale},
         0xB0000000u);

@@ -404,6 +404,8 @@ void stage_draw(Viewer *v) {
         ui_picture(v->requests->reference_texture, v->frame->stage, false);
     else if (requests_shown(v) == SHOWS_DRAWN)
         ui_picture(v->requests->rendered.texture, v->frame->stage, true);
+    if (requests_shown(v) == SHOWS_DRAWN && v->requests->glide)
+        ui_picture_faint(v->requests->rendered.before, v->frame->stage, true, requests_glide(v));
     photographs_draw(v);
     ui_clip(&v->frame->stage);
     draw_split(v);

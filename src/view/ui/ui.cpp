@@ -772,9 +772,10 @@ void ui_label(float x, float y, unsigned color, const char *text) { canvas()->Ad
 void ui_picture(unsigned texture, UiBox b, bool flipped) {
     ui_picture_part(texture, b, 0.0f, flipped ? 1.0f : 0.0f, 1.0f, flipped ? 0.0f : 1.0f);
 }
-void ui_picture_faint(unsigned texture, UiBox b, float opacity) {
+void ui_picture_faint(unsigned texture, UiBox b, bool flipped, float opacity) {
     canvas()->AddImage(reinterpret_cast<ImTextureID>(static_cast<size_t>(texture)), at(b.x, b.y),
-                       at(b.x + b.width, b.y + b.height), at(0.0f, 0.0f), at(1.0f, 1.0f),
+                       at(b.x + b.width, b.y + b.height), at(0.0f, flipped ? 1.0f : 0.0f),
+                       at(1.0f, flipped ? 0.0f : 1.0f),
                        ImGui::ColorConvertFloat4ToU32(ImVec4(1.0f, 1.0f, 1.0f, opacity)));
 }
 void ui_picture_part(unsigned texture, UiBox b, float u0, float v0, float u1, float v1) {

@@ -200,7 +200,7 @@ void ui_disc(float x, float y, float radius, unsigned color);
 void ui_ring(float x, float y, float radius, unsigned color);
 void ui_label(float x, float y, unsigned color, const char *text);
 void ui_picture(unsigned texture, UiBox box, bool flipped);
-void ui_picture_faint(unsigned texture, UiBox box, float opacity); /* 0 to 1 */
+void ui_picture_faint(unsigned texture, UiBox box, bool flipped, float opacity); /* 0 to 1 */
 void ui_picture_part(unsigned texture, UiBox box, float u0, float v0, float u1, float v1);
 
 /* A control of the last frame. */
