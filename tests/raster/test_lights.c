@@ -251,6 +251,33 @@ static void sky_behind_shines_through_cloth(void **state) {
     weft_scene_free(scene);
 }
 
+/* A pane and a solid before an even sky, of which the last absorbs a half; either in a colour. */
+static void sky_behind_shines_through_glass(void **state) {
+    (void)state;
+    need_gl();
+    for (int k = 0; k < 4; k++) {
+        const bool solid = k % 2, smooth = k < 2;
+        WeftScene *scene = test_scene();
+        Material *sheet = test_material(scene, 0.8f);
+        sheet->inputs[INPUT_transmission].value[0] = 1.0f;
+        sheet->inputs[INPUT_roughness].value[0] = smooth ? 0.1f : 0.6f;
+        sheet->inputs[INPUT_thickness].value[0] = solid ? 0.2f : 0.0f;
+        sheet->inputs[INPUT_attenuation_distance].value[0] = 0.2f;
+        test_color(sheet, INPUT_attenuation_color, 0.5f);
+        test_quad(scene, vec3(-2.0f, -2.0f, 0.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 4.0f, 0.0f));
+        scene_bounds(scene);
+        test_environment(scene, 1.0f);
+        WeftRaster *raster = raster_of(scene);
+        WeftImage image = drawn(raster, &view);
+        const float middle = ((const float *)image.pixels)[4 * (SIDE / 2 * SIDE + SIDE / 2)];
+        const float expected = solid ? 0.4f : 0.8f;
+        if (!(fabsf(middle - expected) < 0.008f)) fail_msg("%d: %g is not %g", k, (double)middle, (double)expected);
+        weft_image_free(&image);
+        weft_raster_free(raster);
+        weft_scene_free(scene);
+    }
+}
+
 static void put(WeftScene *scene, int index, float x, int corners) {
     WeftLight light = panel;
     light.position[0] = x;
@@ -316,6 +343,7 @@ int main(void) {
                                        cmocka_unit_test(soft_shadows_are_near_the_path_tracer),
                                        cmocka_unit_test(polygon_behind_shines_through_cloth),
                                        cmocka_unit_test(sky_behind_shines_through_cloth),
+                                       cmocka_unit_test(sky_behind_shines_through_glass),
                                        cmocka_unit_test(updated_lights_draw_as_new_ones)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -210,7 +210,16 @@ static void workflow_reads_only_its_inputs(void **state) {
     set_value(&m, "emission", 0.5f);
     set_value(&m, "sheen_color", 0.5f);
     set_value(&m, "diffuse_transmission", 0.5f);
-    assert_reads(&m, "diffuse_transmission_color");
+    assert_reads(&m, "diffuse_transmission_color transmission -thickness -attenuation_distance -attenuation_color");
+    WeftMaterial glass = m;
+    set_value(&glass, "transmission", 0.5f);
+    assert_reads(&glass, "thickness -attenuation_distance -attenuation_color");
+    set_value(&glass, "thickness", 0.5f);
+    assert_reads(&glass, "attenuation_distance -attenuation_color");
+    set_value(&glass, "attenuation_distance", 0.5f);
+    assert_reads(&glass, "attenuation_color");
+    set_choice(&glass, "workflow", "cloth");
+    assert_reads(&glass, "-transmission -thickness -attenuation_distance -attenuation_color");
     assert_reads(&m, "opacity -reflectance anisotropy_direction clearcoat_roughness clearcoat_normal dust_color "
                      "dust_roughness dust_falloff dust_tilt -dust_direction dust_noise -dust_scale "
                      "emission_strength sheen sheen_roughness -nap");

@@ -131,6 +131,12 @@ static bool moves_the_light(const Material *material, int input) {
     return reads;
 }
 
+/* Returns true if light goes through the material as through glass: of the thickness and what is absorbed inside, the
+ * stack shows one where the other is there, and the path tracer each. */
+static bool is_glass(const Material *material) {
+    return material->inputs[INPUT_transmission].value[0] > 0.0f && moves_the_light(material, INPUT_transmission);
+}
+
 static bool is_black(const Input *input) {
     return !(input->value[0] > 0.0f || input->value[1] > 0.0f || input->value[2] > 0.0f);
 }
@@ -144,6 +150,8 @@ int weft_material_reads(const WeftMaterial *numbers, int input) {
     case INPUT_normal:
     case INPUT_occlusion: return 1;
     case INPUT_emission: return material.inputs[INPUT_emission_strength].value[0] > 0.0f;
+    case INPUT_thickness: return is_glass(&material);
+    case INPUT_attenuation_distance: return material_is_solid(&material) && is_glass(&material);
     case INPUT_emission_strength: return !is_black(&material.inputs[INPUT_emission]);
     default: return moves_the_light(&material, input);
     }
