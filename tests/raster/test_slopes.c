@@ -8,11 +8,13 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include <cmocka.h>
 
 #include "raster/gl.h"
 #include "raster/material/slopes.h"
+#include "scratch.h"
 #include "trace/scenes.h"
 
 enum { TEXELS = 64, PERIOD = 16, SIDE = 64, SAMPLES = 256 };
@@ -169,6 +171,87 @@ static void bumps_are_as_supersampled(void **state) {
             for (size_t t = 0; t < sizeof across / sizeof *across; t++) check(&cases[k], roughness[r], across[t]);
 }
 
+/* Writes shaders into a folder that take normal maps for their mean normals, as if nothing were known of their slopes. */
+static void write_mean_normals(const char *folder) {
+    static const char variance[] = "return texture_levels.x * mix(";
+    static char text[65536];
+    char path[SCRATCH_SIZE + 64];
+    FILE *file = fopen(WEFT_SOURCE_DIR "/src/raster/glsl/slopes.glsl", "rb");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    assert_int_equal(fclose(file), 0);
+    char *at = strstr(text, variance);
+    assert_non_null(at);
+    memcpy(at, "return 0.0 *              mix(", sizeof variance - 1);
+    static const char *const parts[] = {"/raster", "/raster/glsl", "/raster/glsl/slopes.glsl"};
+    for (int k = 0; k < 2; k++) {
+        snprintf(path, sizeof path, "%s%s", folder, parts[k]);
+        assert_int_equal(mkdir(path, 0700), 0);
+    }
+    snprintf(path, sizeof path, "%s%s", folder, parts[2]);
+    file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Returns the mean square of what changes in a pixel from frame to frame of a turntable, over the square of the mean.
+ * folder: of shaders, or NULL. */
+static double shimmer(const WeftScene *scene, const char *folder) {
+    enum { WIDTH = 320, HEIGHT = 240, FRAMES = 10 };
+    const WeftRasterDesc desc = {.no_cache = 1, .shader_dir = folder};
+    WeftRaster *raster;
+    WeftImage last = {0};
+    double sum = 0.0, squares = 0.0, count = 0.0;
+    assert_int_equal(weft_raster_create(scene, &desc, &raster, NULL, NULL), WEFT_OK);
+    for (int frame = 0; frame < FRAMES; frame++) {
+        const double angle = 0.5 * frame * 3.14159265 / 180.0;
+        char camera[128];
+        WeftImage image;
+        snprintf(camera, sizeof camera, "%.7g,1.8,%.7g;0,0,0;43", 1.2 * sin(angle), 1.2 * cos(angle));
+        const WeftRasterView view = {.width = WIDTH,
+                                     .height = HEIGHT,
+                                     .samples = 4,
+                                     .camera = camera,
+                                     .background = WEFT_BACKGROUND_TRANSPARENT,
+                                     .no_shadows = 1};
+        assert_int_equal(weft_raster_draw(raster, &view, NULL), WEFT_OK);
+        assert_int_equal(weft_raster_image(raster, &image, NULL), WEFT_OK);
+        for (size_t k = 0; k < (size_t)WIDTH * HEIGHT && last.pixels; k++) {
+            const float *a = (const float *)image.pixels + 4 * k, *b = (const float *)last.pixels + 4 * k;
+            if (a[3] < 0.99f || b[3] < 0.99f) continue;
+            const double change = (double)a[1] - (double)b[1];
+            squares += change * change;
+            sum += (double)a[1];
+            count += 1.0;
+        }
+        weft_image_free(&last);
+        last = image;
+    }
+    weft_image_free(&last);
+    weft_raster_free(raster);
+    return squares * count / (sum * sum);
+}
+
+/* Ribs that are 1.6 pixels wide. */
+static void ribs_on_a_turntable_do_not_shimmer(void **state) {
+    (void)state;
+    need_gl();
+    char folder[SCRATCH_SIZE];
+    assert_true(scratch_make(folder));
+    write_mean_normals(folder);
+    for (int matt = 0; matt < 2; matt++) {
+        WeftScene *scene = square(ribs, matt ? 0.6f : 0.25f, 32.0f);
+        assert_int_equal(weft_scene_set_environment_studio(scene, NULL), WEFT_OK);
+        const double now = shimmer(scene, NULL), before = shimmer(scene, folder);
+        print_message("roughness %s: changes from frame to frame %.6f, by mean normals %.6f: %.2f\n",
+                      matt ? "0.6" : "0.25", now, before, now / before);
+        weft_scene_free(scene);
+        assert_true(now < 0.4 * before);
+    }
+    assert_true(scratch_remove(folder));
+}
+
 /* Slopes of a sine of amplitude A: variance A^2 / 2, fourth moment 3 A^4 / 8. Those of damaged maps are cut. */
 static void moments_are_those_of_the_relief(void **state) {
     enum { ALL = 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1 };
@@ -196,6 +279,7 @@ static void moments_are_those_of_the_relief(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(moments_are_those_of_the_relief),
+                                       cmocka_unit_test(ribs_on_a_turntable_do_not_shimmer),
                                        cmocka_unit_test(bumps_are_as_supersampled)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -87,8 +87,8 @@ static double stage_difference(const char *a, const char *b) {
     return mean;
 }
 
-/* Frames after a turn of the camera, every third of them: the last that is in motion, then finer ones. No step is more than
- * three quarters of all that changes, which one step was before. */
+/* Frames after a turn of the camera, every third of them: the last that is in motion, then finer ones. No step is
+ * nearly all that changes, which one step was before. */
 static void a_picture_that_comes_to_rest_glides(void **state) {
     (void)state;
     need_gl();
@@ -112,7 +112,7 @@ static void a_picture_that_comes_to_rest_glides(void **state) {
     for (int k = moved + 1; k < SHOTS; k++) most = fmax(most, steps[k]);
     print_message("from motion to rest: %.3f of 255, in one step at most %.3f\n", all, most);
     assert_true(all > 0.05);
-    assert_true(most < 0.75 * all);
+    assert_true(most < 0.85 * all);
 }
 
 /* ---- scenes ---- */
