@@ -61,41 +61,78 @@ static void set(WeftScene *scene, const char *key, const char *value) {
     if (weft_scene_set(scene, key, value, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
 }
 
+/* A scene with some numbers set, a cloth of a preset if it has one, and the largest difference of a picture in motion. */
+typedef struct Case {
+    const char *scene, *settings[3][2], *preset;
+    WeftFloor floor;
+    float opacity; /* of all materials, which blend; 0: they are as they come */
+    int rate;
+    double most;
+} Case;
+
+static void check_case(const Case *at, WeftGl gl) {
+    WeftScene *scene = load(at->scene);
+    WeftError error;
+    for (int k = 0; k < 3 && at->settings[k][0]; k++) set(scene, at->settings[k][0], at->settings[k][1]);
+    if (at->preset && weft_scene_assign_material(scene, "Cloth", at->preset, NULL, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    for (int k = 0; k < scene->material_count && at->opacity > 0.0f; k++) {
+        scene->materials[k].alpha_mode = WEFT_ALPHA_BLEND;
+        scene->materials[k].inputs[INPUT_opacity].value[0] = at->opacity;
+    }
+    WeftRaster *raster = raster_of(scene, gl);
+    WeftRasterView view = {.width = WIDTH, .height = HEIGHT, .samples = 1, .camera = "0", .floor = at->floor};
+    view.background = WEFT_BACKGROUND_TRANSPARENT;
+    WeftImage rest = picture(raster, &view);
+    view.shading_rate = at->rate;
+    WeftImage moving = picture(raster, &view);
+    const double off = difference(&moving, &rest);
+    print_message("%s%s%s %s%s, one point for %d x %d pixels: %.4f\n", at->scene, at->preset ? ", " : "",
+                  at->preset ? at->preset : "", at->settings[0][0] ? at->settings[0][1] : "as it comes",
+                  at->floor.on         ? ", floor"
+                  : at->opacity > 0.0f ? ", blended"
+                                       : "",
+                  at->rate, at->rate, off);
+    assert_true(off < at->most && (off > 0.0 || at->opacity > 0.0f)); /* what blends has all its points */
+    if (!at->floor.on) assert_same_outline(&moving, &rest);
+    weft_image_free(&rest);
+    weft_image_free(&moving);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
 static void moving_pictures_are_those_at_rest(void **state) {
     (void)state;
     need_gl();
-    static const struct {
-        const char *scene, *key, *value;
-        int rate;
-        double most;
-    } cases[] = {{"builtin:cloth", NULL, NULL, 2, 0.04},
-                 {"builtin:cloth", NULL, NULL, 4, 0.06},
-                 {"builtin:cloth", "*.sheen_lobe", "fibre-table", 4, 0.06},
-                 {"builtin:spheres", "*.sheen_lobe", "charlie-neubelt", 3, 0.08},
-                 {"builtin:cloth", "preset", "woven-denim", 3, 0.08}};
-    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-        WeftScene *scene = load(cases[k].scene);
-        WeftError error;
-        if (cases[k].key && cases[k].key[0] == '*') set(scene, cases[k].key, cases[k].value);
-        if (cases[k].key && cases[k].key[0] == 'p' &&
-            weft_scene_assign_material(scene, "Cloth", "preset:woven-denim", NULL, &error) != WEFT_OK)
-            fail_msg("%s", error.text);
-        WeftRaster *raster = raster_of(scene, k % 2 ? WEFT_GL_ES : WEFT_GL_DESKTOP);
-        WeftRasterView view = {.width = WIDTH, .height = HEIGHT, .samples = 1, .camera = "0"};
-        view.background = WEFT_BACKGROUND_TRANSPARENT;
-        WeftImage rest = picture(raster, &view);
-        view.shading_rate = cases[k].rate;
-        WeftImage moving = picture(raster, &view);
-        const double off = difference(&moving, &rest);
-        print_message("%s, %s, one point for %d x %d pixels: %.4f\n", cases[k].scene,
-                      cases[k].value ? cases[k].value : "as it comes", cases[k].rate, cases[k].rate, off);
-        assert_true(off > 0.0 && off < cases[k].most);
-        assert_same_outline(&moving, &rest);
-        weft_image_free(&rest);
-        weft_image_free(&moving);
-        weft_raster_free(raster);
-        weft_scene_free(scene);
-    }
+    static const Case cases[] = {
+        {.scene = "builtin:cloth", .rate = 2, .most = 0.04},
+        {.scene = "builtin:cloth", .rate = 4, .most = 0.06},
+        {.scene = "builtin:cloth", .settings = {{"*.sheen_lobe", "fibre-table"}}, .rate = 4, .most = 0.06},
+        {.scene = "builtin:spheres", .settings = {{"*.sheen_lobe", "charlie-neubelt"}}, .rate = 3, .most = 0.08},
+        {.scene = "builtin:cloth", .preset = "preset:woven-denim", .rate = 3, .most = 0.08},
+        {.scene = "builtin:cloth", .preset = "preset:woven-charmeuse", .rate = 3, .most = 0.08},
+        {.scene = "builtin:cloth", .preset = "preset:woven-linen", .rate = 4, .most = 0.08}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
+        check_case(&cases[k], k % 2 ? WEFT_GL_ES : WEFT_GL_DESKTOP);
+}
+
+/* Highlights narrower than the points of a square of pixels, a floor that mirrors, and what blends. */
+static void narrow_mirrored_and_blended_light_is_near(void **state) {
+    (void)state;
+    need_gl();
+    static const Case cases[] = {
+        {.scene = "builtin:spheres",
+         .settings = {{"*.roughness", "0.1"}, {"*.metallic", "1"}, {"*.sheen_color", "0"}},
+         .rate = 3,
+         .most = 0.03},
+        {.scene = "builtin:spheres",
+         .settings = {{"*.roughness", "0.2"}, {"*.clearcoat", "1"}, {"*.clearcoat_roughness", "0.1"}},
+         .rate = 4,
+         .most = 0.03},
+        {.scene = "builtin:spheres", .floor = {.on = 1, .reflection = 0.3f}, .rate = 3, .most = 0.03},
+        {.scene = "builtin:spheres", .opacity = 0.6f, .rate = 3, .most = 0.03}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
+        check_case(&cases[k], k % 2 ? WEFT_GL_ES : WEFT_GL_DESKTOP);
 }
 
 /* Two unlit quads with slanting sides, one before the other and of other brightness, and a veil over both. */
@@ -180,7 +217,8 @@ static void other_rates_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(moving_pictures_are_those_at_rest), cmocka_unit_test(outlines_have_all_their_pixels),
+        cmocka_unit_test(moving_pictures_are_those_at_rest),
+        cmocka_unit_test(narrow_mirrored_and_blended_light_is_near), cmocka_unit_test(outlines_have_all_their_pixels),
         cmocka_unit_test(strips_are_parts_of_the_whole), cmocka_unit_test(other_rates_are_refused)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }
