@@ -198,6 +198,7 @@ static void hair_shades_its_cloth(void **state) {
     print_message("bald %.4f, with hair traced %.4f, summed %.4f, a frame %.4f\n", bald, should, sum, frame);
     assert_true(should < 0.95 * bald);
     assert_true(fabs(sum / should - 1.0) < 0.02);
+    assert_true(fabs(frame / should - 1.0) < 0.03);
     weft_raster_free(raster);
     weft_scene_free(scene);
 }

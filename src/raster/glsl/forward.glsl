@@ -1,7 +1,8 @@
 /* forward.glsl - a fragment: its surface, its stack of lobes, and the light that they reflect to the eye
  *
  * The text before it supplies MATERIAL_..., material_surface, material_choices and material_table, SHOWS_... of
- * a part of the light, and PROPERTY where a property is shown in its place. */
+ * a part of the light, HAIR_OPEN, the part of it that hair on the surface lets through, and PROPERTY where a property is
+ * shown in its place. */
 in highp vec3 from_eye;
 centroid in highp vec3 vertex_normal; /* centroid: inside the triangle at outlines too */
 #ifdef NEEDS_TANGENT
@@ -209,7 +210,7 @@ void main() {
         float strength = gl_FrontFacing || MATERIAL_DOUBLE_SIDED ? s.emission_strength : 0.0;
         sum = rgb_scale(s.emission, SHOWS_EMISSION * strength);
         vec4 light = pixel_light(s, at, wo);
-        sum = rgb_add(sum, rgb(light.r, light.g, light.b));
+        sum = rgb_add(sum, rgb_scale(rgb(light.r, light.g, light.b), HAIR_OPEN));
 #ifdef WOVEN
 #ifdef MASKED
         opacity = light.a < 0.5 ? 0.0 : opacity;
@@ -223,7 +224,7 @@ void main() {
 #ifdef COARSE
     /* Keep below what halves hold: one infinite point would spread over its neighbours. */
     fragment.rgb = min(fragment.rgb, 65000.0);
-    fragment_polygons = min(vec4(polygons_open, dot(polygons_shadowed, LUMINANCE)) * opacity, 65000.0);
+    fragment_polygons = min(vec4(polygons_open, dot(polygons_shadowed, LUMINANCE)) * HAIR_OPEN * opacity, 65000.0);
     fragment_guide = coarse_guide(vec_of_dir(at.normal), surface_number);
 #endif
     /* discard comes last, since derivatives of its neighbours need a fragment until here */

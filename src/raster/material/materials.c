@@ -143,6 +143,8 @@ static void make_material(GlMaterial *self, const Material *material, const GlTe
     self->key.woven = material->cloth != 0;
     for (int k = 0; k < INPUT_COUNT; k++) add_input(self, textures, material, k, uniforms);
     uniforms->more[0][0] = material->alpha_cutoff;
+    uniforms->more[0][1] = hair_lets_through(material);
+    self->key.haired = uniforms->more[0][1] < 1.0f;
 }
 
 static void use(GlMaterial *material, const Mesh *mesh) {

@@ -467,6 +467,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
         define_weave(text);
     }
     if (key->hairy) text_define(text, "HAIRY", "1");
+    text_define(text, "HAIR_OPEN", key->haired ? "(gl_FrontFacing ? material_more[0].y : 1.0)" : "1.0");
     if (key->coarse) text_define(text, "COARSE", "1");
     part_text(key->part, text);
     put_lights(text, key);

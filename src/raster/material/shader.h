@@ -51,8 +51,9 @@ typedef struct ShaderKey {
     int16_t polygon_corners[SHADER_LIGHTS], polygon_two_sided[SHADER_LIGHTS], polygon_map[SHADER_LIGHTS];
     int part; /* WeftPart */
     int alpha_mode, unlit, double_sided, colored;
-    int hairy; /* 1: fibres of hair, widened to a pixel and blended (glsl/vertex.glsl) */
-    int woven; /* 1: a cloth is in the place of the base */
+    int haired; /* 1: hair stands on its front */
+    int hairy;  /* 1: fibres of hair, widened to a pixel and blended (glsl/vertex.glsl) */
+    int woven;  /* 1: a cloth is in the place of the base */
     int table_kind, table_rows, table_columns, table_tilts; /* of the sheen's E */
 } ShaderKey;
 
@@ -65,7 +66,7 @@ typedef float MaterialVector[4];
     M(MaterialVector, places,                                                                                          \
       2 * INPUT_COUNT)         /* of each input: rows of its transform; layers of its map and slopes */                \
     M(MaterialVector, e, 1)    /* of the sheen's E: layer, low, high, tilt */                                          \
-    M(MaterialVector, more, 1) /* alpha cutoff */                                                                      \
+    M(MaterialVector, more, 1) /* alpha cutoff; part of the light that comes through its hair */                       \
     M(MaterialVector, weave, CLOTH_NUMBERS / 4)                                                                        \
     M(AmbientWeights, fits, FIT_VECTORS) /* shading/ambient/ambient.h */
 

@@ -106,6 +106,12 @@ static Vec3 across_of(Vec3 a, Vec3 along) {
     return vec3_normal_or(vec3_madd(a, along, -vec3_dot(a, along)), vec3(0.0f, 0.0f, 0.0f));
 }
 
+float hair_lets_through(const Material *material) {
+    const float *numbers = material->hair;
+    return expf(-0.9f * 0.5625f * numbers[WEFT_HAIR_DENSITY] * numbers[WEFT_HAIR_LENGTH] *
+                numbers[WEFT_HAIR_THICKNESS]);
+}
+
 Vec3 hair_across(const Mesh *hair, uint32_t vertex) {
     const uint32_t of_fibre = vertex % HAIR_VERTICES, beside = vertex - of_fibre + (of_fibre ^ 1u);
     if (of_fibre == HAIR_VERTICES - 1) return vec3(0.0f, 0.0f, 0.0f);
