@@ -107,6 +107,21 @@ static void half_transparent_and_single_sided(void **state) {
     agrees(scene, &view, FRAMES, SPP, "veil and single side", 0.025, 0.006);
 }
 
+/* A pane of rough glass before the balls, which neither engine shows through it at depth 1, and a sun that it lets pass. */
+static void thin_glass(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = balls();
+    assert_int_equal(weft_scene_set_environment_studio(scene, NULL), WEFT_OK);
+    Material *pane = test_material(scene, 0.9f);
+    pane->inputs[INPUT_specular].value[0] = 1.0f;
+    pane->inputs[INPUT_roughness].value[0] = 0.5f;
+    pane->inputs[INPUT_transmission].value[0] = 0.8f;
+    pane->inputs[INPUT_fuzz].value[0] = 0.5f;
+    test_quad(scene, vec3(-0.6f, -0.3f, 0.8f), vec3(0.9f, 0.0f, 0.1f), vec3(0.0f, 0.9f, -0.1f));
+    agrees(scene, &view, FRAMES, SPP, "pane of glass", 0.03, 0.006);
+}
+
 /* A lattice of holes above the floor: a map of opacity of 4 x 4 texels, repeated and mirrored, whose edges lie between
  * texels. */
 static void holes_of_a_map(void **state) {
@@ -237,10 +252,15 @@ static void turning_is_answered_at_once(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(under_a_studio),        cmocka_unit_test(under_a_polygon),
-        cmocka_unit_test(under_punctual_lights), cmocka_unit_test(half_transparent_and_single_sided),
-        cmocka_unit_test(holes_of_a_map),        cmocka_unit_test(a_sum_in_pieces),
-        cmocka_unit_test(begins_without_a_jump), cmocka_unit_test(turning_is_answered_at_once),
+        cmocka_unit_test(under_a_studio),
+        cmocka_unit_test(under_a_polygon),
+        cmocka_unit_test(under_punctual_lights),
+        cmocka_unit_test(half_transparent_and_single_sided),
+        cmocka_unit_test(thin_glass),
+        cmocka_unit_test(holes_of_a_map),
+        cmocka_unit_test(a_sum_in_pieces),
+        cmocka_unit_test(begins_without_a_jump),
+        cmocka_unit_test(turning_is_answered_at_once),
     };
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

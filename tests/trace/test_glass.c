@@ -31,6 +31,7 @@ typedef struct Seen {
     Stack stack;
     StackView view;
     SolidGlass glass;
+    SolidTable table;
     SolidView solid;
 } Seen;
 
@@ -41,7 +42,8 @@ static void see(Seen *seen, float roughness, float ior, bool inside, Dir o) {
     m->inputs[INPUT_ior].value[0] = ior;
     const Surface s = material_plain(m);
     stack_make(&seen->stack, &s, &choices, (TableRef){.kind = TABLE_NONE});
-    seen->glass = solid_take(&seen->stack, &s);
+    seen->glass = solid_take(&seen->stack, &s, &seen->table);
+    solid_table_fill(&seen->glass, false, &seen->table);
     if (inside) solid_hide_highlight(&seen->stack);
     stack_see(&seen->stack, &o, &seen->view);
     seen->solid = solid_see(&seen->glass, &seen->stack, &seen->view, inside);
@@ -86,7 +88,7 @@ static void smooth_glass_bends_light_by_snell(void **state) {
     assert_true(worst < 0.02);
 }
 
-/* R + T by samples and by an even sum over the sphere; from either side, never above 1, and 1 where facets lose nothing. */
+/* R + T by samples and by an even sum over the sphere: 1 from either side, at any roughness. */
 static void rough_glass_sends_on_what_it_should(void **state) {
     (void)state;
     enum { SAMPLES = 100000, EVEN = 400000 };
@@ -96,7 +98,8 @@ static void rough_glass_sends_on_what_it_should(void **state) {
 #define NEXT unit_float(hash32(++random * 0x9e3779b9u))
     for (int n = 0; n < 48; n++) {
         Seen seen;
-        const float roughness = roughnesses[n % 4], cosine = 0.1f + 0.28f * (float)(n / 16) + 0.04f * (float)(n % 8);
+        const int third_of = n / 16;
+        const float roughness = roughnesses[n % 4], cosine = 0.1f + 0.28f * (float)third_of + 0.04f * (float)(n % 8);
         double drawn = 0.0, square = 0.0, even = 0.0, spread = 0.0;
         see(&seen, roughness, iors[n / 4 % 4], n % 3 == 0, at(cosine));
         for (int k = 0; k < SAMPLES; k++) {
@@ -127,7 +130,7 @@ static void rough_glass_sends_on_what_it_should(void **state) {
 #undef NEXT
     print_message("R + T is at most %.4f; at least %.4f, %.3f, %.3f, %.3f at roughness .1, .3, .6, 1\n", most, least[0],
                   least[1], least[2], least[3]);
-    assert_true(most < 1.0005 && least[0] > 0.998 && least[1] > 0.96);
+    assert_true(most < 1.002 && least[0] > 0.998 && least[1] > 0.998 && least[2] > 0.997 && least[3] > 0.99);
 }
 
 static double mean_of(const WeftScene *scene, WeftRenderDesc desc, int spp) {
@@ -156,10 +159,7 @@ static void white_glass_vanishes(void **state) {
         const double mean = mean_of(scene, desc, 256);
         printf("  white glass, %s%s%s: 1 %+.1e\n", solid ? "solid" : "thin", fuzzy ? ", fuzz" : "",
                rough ? ", rough" : "", mean - 1.0);
-        if (solid && rough) /* what scatters between facets is lost at each turn */
-            assert_true(mean < 1.0 + 1e-4 && mean > 0.95);
-        else
-            assert_true(fabs(mean - 1.0) < 1e-3);
+        assert_true(fabs(mean - 1.0) < 1e-3);
         weft_scene_free(scene);
     }
 }

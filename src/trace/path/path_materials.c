@@ -30,7 +30,9 @@ static void prepare_solid(PathMaterial *prepared, const Surface *surface) {
     Surface clear = *surface;
     clear.attenuation_distance = 0.0f;
     stack_make(&prepared->stack, &clear, &prepared->choices, prepared->sheen_e);
-    prepared->glass = solid_take(&prepared->stack, &clear);
+    prepared->glass = solid_take(&prepared->stack, &clear, &prepared->table);
+    const bool textured = prepared->material.inputs[INPUT_roughness].texture != 0;
+    solid_table_fill(&prepared->glass, textured, &prepared->table);
 }
 
 static void prepare(const WeftScene *scene, const Material *material, TableRef sheen_e, PathMaterial *prepared) {

@@ -83,7 +83,7 @@ static const Stack *stack_at(Chunk *chunk, const PathMaterial *material, int k) 
     Dir position = dir(chunk->position[0][k], chunk->position[1][k], chunk->position[2][k]);
     surface = dust_accumulate(frame_surface(surface), normal, position);
     stack_make(&chunk->stack, &surface, &material->choices, material->sheen_e);
-    if (material->solid) chunk->glass = solid_take(&chunk->stack, &surface);
+    if (material->solid) chunk->glass = solid_take(&chunk->stack, &surface, &material->table);
     if (material->cloth) {
         const YarnRows *yarn = &chunk->vertices.yarn;
         const Lobe lobe = yarn_of_row(yarn, (size_t)k);

@@ -4,7 +4,7 @@
 
 static const float LEAST_BENT = 1.001f; /* an ior of 1 leaves no half vector */
 
-SolidGlass solid_take(Stack *stack, const Surface *surface) {
+SolidGlass solid_take(Stack *stack, const Surface *surface, const SolidTable *table) {
     const Proxy facets = lobe_proxy(&stack->specular.lobe);
     const SolidGlass glass = {.share = stack->glass,
                               .tint = stack->glass_tint,
@@ -14,7 +14,8 @@ SolidGlass solid_take(Stack *stack, const Surface *surface) {
                               .f0 = stack->specular.f0,
                               .f90 = stack->specular.f90,
                               .interface_f0 = stack->interface_f0,
-                              .interface_f90 = stack->interface_f90};
+                              .interface_f90 = stack->interface_f90,
+                              .table = table};
     Slot *diffuse = &stack->diffuse;
     const float through = rgb_mean(stack->transmitted), clear = stack_glass_facing(stack);
     const bool dark = !(rgb_max3(diffuse->f0) + rgb_max3(diffuse->f90) + through > 0.0f);
@@ -59,15 +60,28 @@ static float sampled_p(const SolidView *view) {
     return others ? clamp(part * view->view->scale.diffuse * rgb_mean(view->view->base_scale), 0.1f, 0.9f) : 1.0f;
 }
 
+/* Returns a number of the table, mixed linearly. */
+static float table_scale(const SolidTable *table, bool inside, float alpha, float cosine) {
+    const float y = sqrt(clamp(alpha, 0.0f, 1.0f)) * (float)(SOLID_ROWS - 1);
+    const float x = sqrt(clamp(cosine, 0.0f, 1.0f)) * (float)(SOLID_COLUMNS - 1);
+    const int row = y < (float)(SOLID_ROWS - 1) ? (int)y : SOLID_ROWS - 2;
+    const int column = x < (float)(SOLID_COLUMNS - 1) ? (int)x : SOLID_COLUMNS - 2;
+    const float *a = table->scale[inside][row] + column, *b = table->scale[inside][row + 1] + column;
+    const float right = x - (float)column;
+    return mix(mix(a[0], a[1], right), mix(b[0], b[1], right), y - (float)row);
+}
+
 SolidView solid_see(const SolidGlass *glass, const Stack *stack, const StackView *view, bool inside) {
     SolidView seen = {.glass = glass,
                       .stack = stack,
                       .view = view,
                       .inside = inside,
                       .n = inside ? 1.0f / glass->ior : glass->ior,
-                      .facets = ggx_stretched(glass->ax, glass->ay)};
+                      .facets = ggx_stretched(glass->ax, glass->ay),
+                      .scale = 1.0f};
     ggx_view(&seen.facets, view->o, &seen.facets_view);
     seen.p = sampled_p(&seen);
+    if (glass->table) seen.scale = table_scale(glass->table, inside, min(glass->ax, glass->ay), view->o.z);
     return seen;
 }
 
@@ -76,8 +90,8 @@ static StackValue reflected(const SolidView *view, const Angles *a) {
     const SolidGlass *glass = view->glass;
     const LobeValue lobe = ggx_value(&view->facets, &view->facets_view, *a);
     const Rgb opaque = rgb_mix(glass->f0, glass->f90, schlick_s(a->d));
-    const Rgb f =
-        rgb_mul(rgb_mix(opaque, interface_at(view, a->d), glass->share), stack_over_glass(view->stack, view->view, a));
+    const Rgb f = rgb_mul(rgb_mix(opaque, rgb_scale(interface_at(view, a->d), view->scale), glass->share),
+                          stack_over_glass(view->stack, view->view, a));
     return (StackValue){rgb_scale(f, lobe.f * a->i.z), view->p * reflects_p(view, a->d) * lobe.pdf};
 }
 
@@ -95,7 +109,65 @@ static StackValue refracted(const SolidView *view, Dir i, const Angles *a) {
     const float pdf = g_o * ggx_d(ax, ay, h) * c / o.z * (n * n * -beyond / (sum * sum));
     const Rgb colour = rgb_mul(view->glass->tint, stack_one_minus(interface_at(view, c)));
     const Rgb f = rgb_mul(colour, stack_over_glass(view->stack, view->view, a));
-    return (StackValue){rgb_scale(f, pdf * g_i), view->p * (1.0f - reflects_p(view, c)) * pdf};
+    return (StackValue){rgb_scale(f, pdf * g_i * view->scale), view->p * (1.0f - reflects_p(view, c)) * pdf};
+}
+
+/* Returns the direction that a facet bends wo to; z is not below 0 if there is none. */
+static Dir bent(const SolidView *view, Dir o, Dir h) {
+    const float c = dir_dot(o, h), n = view->n, k = 1.0f - (1.0f - c * c) / (n * n);
+    if (!(k > 0.0f)) return dir(1.0f, 0.0f, 0.0f);
+    const float along = c / n - sqrt(k);
+    return dir_normal_or(dir(along * h.x - o.x / n, along * h.y - o.y / n, along * h.z - o.z / n),
+                         dir(1.0f, 0.0f, 0.0f));
+}
+
+/* Returns R and T of white glass from wo, by directions of facets that fill the square evenly: Martin Roberts, "The
+ * Unreasonable Effectiveness of Quasirandom Sequences", 2018. */
+static void parts_of(const SolidView *view, Dir o, double parts[2]) {
+    enum { POINTS = 2048 };
+    const float ax = view->glass->ax;
+    parts[0] = parts[1] = 0.0;
+    for (int k = 0; k < POINTS; k++) {
+        const double u = fmod((k + 0.5) * 0.7548776662466927, 1.0), v = fmod((k + 0.5) * 0.5698402909980532, 1.0);
+        const Dir h = ggx_sample_h(ax, ax, o, (float)u, (float)v), mirror = dir_mirror(o, h),
+                  through = bent(view, o, h);
+        const float f = min(rgb_mean(interface_at(view, dir_dot(o, h))), 1.0f), below = -through.z;
+        if (mirror.z > 0.0f) {
+            const LobeValue lobe = ggx_value(&view->facets, &view->facets_view, angles_between(o, mirror));
+            if (lobe.pdf > 0.0f) parts[0] += (double)(f * lobe.f * mirror.z / lobe.pdf) / POINTS;
+        }
+        if (below > 0.0f)
+            parts[1] += (double)((1.0f - f) * 2.0f * below / (below + ggx_length(ax, ax, through))) / POINTS;
+    }
+}
+
+/* Returns the factor of one place of the table. */
+static float scale_of(const SolidGlass *glass, bool inside, float roughness, float cosine) {
+    const Dir o = dir(sqrt(1.0f - cosine * cosine), 0.0f, cosine);
+    SolidGlass even = *glass;
+    double parts[2];
+    even.ax = even.ay = max(roughness * roughness, 0.001f);
+    SolidView view = {.glass = &even,
+                      .inside = inside,
+                      .n = inside ? 1.0f / glass->ior : glass->ior,
+                      .facets = ggx_stretched(even.ax, even.ay)};
+    ggx_view(&view.facets, o, &view.facets_view);
+    parts_of(&view, o, parts);
+    const double scale = inside ? 1.0 / (parts[0] + parts[1]) : (1.0 - parts[0]) / parts[1];
+    return (float)fmin(fmax(scale, 1.0), 8.0);
+}
+
+void solid_table_fill(const SolidGlass *glass, bool textured, SolidTable *table) {
+    const float place = sqrt(clamp(min(glass->ax, glass->ay), 0.0f, 1.0f)) * (float)(SOLID_ROWS - 1);
+    for (int side = 0; side < 2; side++)
+        for (int row = 0; row < SOLID_ROWS; row++) {
+            if (!textured && !(abs((float)row - place) < 1.5f)) continue;
+            for (int column = 0; column < SOLID_COLUMNS; column++) {
+                const float root = max((float)column / (float)(SOLID_COLUMNS - 1), 0.02f);
+                table->scale[side][row][column] =
+                    scale_of(glass, side == 1, (float)row / (float)(SOLID_ROWS - 1), root * root);
+            }
+        }
 }
 
 StackValue solid_glass(const SolidView *view, Dir i) {
@@ -113,16 +185,9 @@ void solid_sample(const SolidView *view, float u, float v, float third, Dir *i) 
         return;
     }
     const Dir h = ggx_sample_h(view->glass->ax, view->glass->ay, o, u, v);
-    const float c = dir_dot(o, h), n = view->n, k = 1.0f - (1.0f - c * c) / (n * n);
-    *i = dir(1.0f, 0.0f, 0.0f);
-    if (third < reflects_p(view, c)) {
-        const Dir mirror = dir_mirror(o, h);
-        if (mirror.z > 0.0f) *i = mirror;
-    } else if (k > 0.0f) {
-        const float along = c / n - sqrt(k);
-        const Dir bent = dir(along * h.x - o.x / n, along * h.y - o.y / n, along * h.z - o.z / n);
-        if (bent.z < 0.0f) *i = dir_normal_or(bent, *i);
-    }
+    const bool reflects = third < reflects_p(view, dir_dot(o, h));
+    const Dir to = reflects ? dir_mirror(o, h) : bent(view, o, h);
+    *i = reflects == (to.z > 0.0f) ? to : dir(1.0f, 0.0f, 0.0f);
 }
 
 Rgb solid_absorption(const Surface *surface) {

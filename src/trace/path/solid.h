@@ -8,13 +8,24 @@
  * Surfaces", EGSR 2007, Equations 16, 17 and 21; D, G1 of GGX. F is Schlick's between the two colours of the interface, at
  * the cosine on the side of air; from within all is reflected beyond the critical angle. The light that is reflected
  * outside is the stack's own, and the layers of the stack dim what goes through on either side.
+ *   What single scattering between facets loses is given back in the directions of the rest: f_t from outside is scaled to
+ * 1 less the reflection, f from inside to 1 (Emmanuel Turquin, "Practical Multiple Scattering Compensation for Microfacet
+ * Models", Industrial Light & Magic, 2019), by a table over roughness and cos_o; facets that are stretched, by that of
+ * their smaller alpha.
  *   Departures: f_t is that of energy, without the factor n^2 on radiance inside; it cancels unless a light or the camera
- * is inside. What scatters more than once between facets is lost, as outside. A path knows one solid at a time: what is
- * inside of two is inside of the one entered last. */
+ * is inside. So scaled, f is not reciprocal where facets are rough. A path knows one solid at a time: what is inside of two
+ * is inside of the one entered last. */
 #pragma once
 
 #include "scene/record/material.h"
 #include "shading/material/material_stack.h"
+
+/* Factors on f that give back what facets lose, from outside and from inside: over roughness and the root of cos_o, both
+ * from 0 to 1. */
+enum { SOLID_ROWS = 11, SOLID_COLUMNS = 25 };
+typedef struct SolidTable {
+    float scale[2][SOLID_ROWS][SOLID_COLUMNS];
+} SolidTable;
 
 /* Glass as it was taken from a stack. */
 typedef struct SolidGlass {
@@ -25,6 +36,7 @@ typedef struct SolidGlass {
     Rgb f0, f90;      /* colours of the highlight */
     Rgb interface_f0; /* as in the stack */
     float interface_f90;
+    const SolidTable *table; /* borrowed; NULL: what facets lose stays lost */
 } SolidGlass;
 
 /* A stack whose glass was taken, and the glass, seen from wo. */
@@ -36,11 +48,15 @@ typedef struct SolidView {
     float n;     /* as above */
     GgxPrepared facets;
     GgxView facets_view;
-    float p; /* the share of the samples that the glass draws */
+    float scale; /* of the table */
+    float p;     /* the share of the samples that the glass draws */
 } SolidView;
 
-/* Takes the glass out of a stack, which then only reflects. surface: that of the stack. */
-SolidGlass solid_take(Stack *stack, const Surface *surface);
+/* Takes the glass out of a stack, which then only reflects. surface: that of the stack. table: may be NULL. */
+SolidGlass solid_take(Stack *stack, const Surface *surface, const SolidTable *table);
+
+/* Fills the table of a glass, whose own is not read: for all roughnesses if that is textured, else about its own. */
+void solid_table_fill(const SolidGlass *glass, bool textured, SolidTable *table);
 
 /* Takes the highlight out of a stack that is seen from inside: that of the glass is another one there. */
 void solid_hide_highlight(Stack *stack);
