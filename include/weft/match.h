@@ -148,15 +148,16 @@ typedef struct WeftBaked {
 
 /* Writes a woven material as tiling textures into a folder, which is made if it does not exist: base_color.png (sRGB,
  * coverage in alpha), normal.png, occlusion_roughness.png (occlusion in red, roughness in green, metallic in blue),
- * anisotropy.png (encoded as in KHR_materials_anisotropy), height.png, the same of its other face as back-base_color.png
- * and so on, and material.json, the material with both, which scales them to a surface of which one unit of texture
- * coordinates spans so many metres. The textures contain whole repeats of at least 16 threads; a side has 16 to 8192
- * texels. The numbers of the material, and factors on the colours, roughness and anisotropy of the textures, are fitted so
- * that what a viewer of that profile shades is what the cloth reflects from afar, with the sheen of `material`, and threads
- * keep their contrast near by. Gaps are black where the material is opaque, else holes. The rotation of the weave is left
- * out. With `levels` sides are multiples of 4, the first four files of the front end in .ktx2 (UASTC in Zstandard, as
- * KHR_texture_basisu takes it), and each mip level is fitted like the whole: its texels shade as the cloth does from
- * afar, in the mean, with the contrast of the threads at that size. found, of the front, may be NULL. The same arguments give the same files. Fails with WEFT_MESSAGE_DESC (no cloth, a
+ * anisotropy.png (encoded as in KHR_materials_anisotropy), height.png, the same of its other face as
+ * back-base_color.png and so on, and material.json, the material with both, which scales them to a surface of which one
+ * unit of texture coordinates spans so many metres. The textures contain whole repeats of at least 16 threads; a side
+ * has 16 to 8192 texels. The numbers of the material, and factors on the colours, roughness and anisotropy of the
+ * textures, are fitted so that what a viewer of that profile shades is what the cloth reflects from afar, with the
+ * sheen of `material`, and threads keep their contrast near by. Gaps are black where the material is opaque, else
+ * holes. The rotation of the weave is left out. With `levels` sides are multiples of 4, the first four files of the
+ * front end in .ktx2 (UASTC in Zstandard, as KHR_texture_basisu takes it), and each mip level is fitted like the
+ * whole: its texels shade as the cloth does from afar, in the mean, with the contrast of the threads at that size.
+ * found, of the front, may be NULL. The same arguments give the same files. Fails with WEFT_MESSAGE_DESC (no cloth, a
  * number out of range, a profile that is not one or does not read metallic), _PARAM_VALUE, _FILE_WRITE or _MEMORY. */
 WEFT_API WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *cloth, const WeftBaking *baking,
                                        const char *folder, WeftBaked *found, WeftError *error);

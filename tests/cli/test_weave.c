@@ -157,6 +157,8 @@ static void a_material_is_baked_as_its_weave(void **state) {
     assert_ends(LIST("weave", "red.json", "--yarn", "wool"), 2, "--yarn: red.json is a material");
     assert_ends(LIST("weave", "red.json", "--profile", "three"), 2, "--bake");
     assert_ends(LIST("weave", "red.json", "--bake", "other", "--profile", "treacle"), 2, "no profile treacle");
+    assert_ends(LIST("weave", "red.json", "--textures", "ktx2"), 2, "--bake");
+    assert_ends(LIST("weave", "red.json", "--bake", "other", "--textures", "jpg"), 2, "not one of png, ktx2");
     assert_int_equal(access("other", F_OK), -1);
     assert_true(scratch_remove("maps"));
 }

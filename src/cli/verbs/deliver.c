@@ -131,10 +131,10 @@ static int levels_add(TargetFile *file, const char *path) {
     if (weft_deliver_levels(path, path, &count, &error) != WEFT_OK) return report_error(&error);
     char **used = &file->delivery.extensions;
     if (!count || strstr(*used, line)) return 0;
-    char *longer = malloc(strlen(*used) + sizeof line);
+    const size_t size = strlen(*used) + sizeof line;
+    char *longer = malloc(size);
     if (!longer) return report(WEFT_RESOURCES, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_MEMORY));
-    strcpy(longer, *used);
-    strcat(longer, line);
+    snprintf(longer, size, "%s%s", *used, line);
     free(*used);
     *used = longer;
     return 0;

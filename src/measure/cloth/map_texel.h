@@ -46,6 +46,6 @@ void map_texel_add(MapTexel *to, const MapTexel *texel, float part);
 /* Returns linear base colour, channel c, with the light that reaches the texel to the power of shade. holed: without gaps. */
 float map_texel_color(const MapTexel *texel, int c, float shade, bool holed);
 
-/* Returns the strength of alignment of the fibres, 0 to 1, and sets the angle from +x across them, -45 to 135 degrees, in which highlights
- * are elongated. */
+/* Returns the strength of alignment of the fibres, 0 to 1, and sets the angle from +x across them, in which highlights are
+ * elongated: -45 to 135 degrees. */
 float map_texel_stretch(const MapTexel *texel, float *angle);

@@ -37,8 +37,8 @@ static void texels_read(FineMaps *maps) {
     const Input *normal = &maps->material->inputs[INPUT_normal], *rough = &maps->material->inputs[INPUT_roughness];
     const Texture *texture = &maps->scene->textures[normal->texture - 1];
     for (int k = 0; k < maps->width * maps->height; k++) {
-        const float u = ((float)(k % maps->width) + 0.5f) / (float)maps->width,
-                    v = ((float)(k / maps->width) + 0.5f) / (float)maps->height;
+        const int column = k % maps->width, row = k / maps->width;
+        const float u = ((float)column + 0.5f) / (float)maps->width, v = ((float)row + 0.5f) / (float)maps->height;
         const Texel t = texture_fetch(texture, maps->scene->images, NULL, u, v);
         Texel r = {{1.0f, 1.0f, 1.0f, 1.0f}};
         if (rough->texture)
