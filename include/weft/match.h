@@ -162,6 +162,14 @@ typedef struct WeftBaked {
 WEFT_API WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *cloth, const WeftBaking *baking,
                                        const char *folder, WeftBaked *found, WeftError *error);
 
+/* Bakes the weave of a material of a scene, 0 .. material_count - 1, into a folder as weft_material_bake does, and gives
+ * the material the textures in its place. Fuzz and coat, which lie over the threads, stay as they are, and are left out of
+ * the fit. metres of 0 are those of the weave. The scene has read the textures: the folder may be removed. Where it fails
+ * the material may be either. Fails as weft_material_bake and weft_scene_assign_material do, and with WEFT_MESSAGE_DESC if
+ * another material has this one's number as its name, by which it would be assigned to as well. */
+WEFT_API WeftResult weft_scene_bake(WeftScene *scene, int material, const WeftBaking *baking, const char *folder,
+                                    WeftBaked *found, WeftError *error);
+
 #ifdef __cplusplus
 }
 #endif
