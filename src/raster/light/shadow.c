@@ -181,8 +181,8 @@ static float half_width(const Shadow *self, const Vec3 corners[8]) {
     return half;
 }
 
-/* Returns the shadow map of a polygon with layers of side x side texels, from its middle towards the casters. It contains all of them, unless the polygon
- * is among them. */
+/* Returns the shadow map of a polygon with layers of side x side texels, from its middle towards the casters. It contains
+ * all of them, unless the polygon is among them. */
 static Shadow of_polygon(const LightPolygon *polygon, Box casters, int side) {
     const float most = 6.0f;
     Vec3 eye = {0}, right, up, corners[8], middle = vec3_scale(vec3_add(casters.low, casters.high), 0.5f);

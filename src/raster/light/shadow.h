@@ -10,8 +10,7 @@
 #include "raster/light/depths.h"
 #include "scene/light/polygons.h"
 
-/* Texels along the side of a map, and of each of a polygon's if it is the only one. Several polygons share the memory of
- * one. */
+/* Texels along the side of a map, and of each of a polygon's if it is the only one. Several share the memory of one. */
 enum { SHADOW_SIDE = 2048, SHADOW_POINT_SIDE = 512 };
 
 /* The shadow map of a light. */

@@ -57,8 +57,8 @@ typedef struct Programs {
     unsigned tick;             /* pictures so far */
 } Programs;
 
-/* Programs that are kept, of those that shade, and the number of last pictures whose programs are kept in any case. A program may be some
- * ten megabytes of code. */
+/* Programs that are kept, of those that shade, and the number of last pictures whose programs are kept in any case. A
+ * program may be some ten megabytes of code. */
 enum { PROGRAMS_KEPT = 7, PROGRAMS_LATE = 3 };
 
 /* Records that a picture will be drawn with a key. Returns false if memory is short. */
