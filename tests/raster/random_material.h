@@ -60,11 +60,11 @@ static inline void material_begin(RandomMaterial *m) {
     m->text[m->used] = '\0';
 }
 
-static inline void material_weave(RandomMaterial *m) {
+static inline void material_weave(RandomMaterial *m, double share) {
     static const char *const drafts[] = {"plain", "twill 2/2 z", "twill 3/1 s", "satin 5/2"};
     static const char *const yarns[] = {"cotton", "silk", "wool", "linen"};
     Random *r = &m->random;
-    if (random_chance(r, 0.06))
+    if (random_chance(r, share))
         material_key(m, "weave",
                      "{\"draft\": \"%s; warp 1#%02x%02x%02x; weft 1#%02x%02x%02x; sett %d %d\", \"warp\": \"%s\", "
                      "\"weft\": \"%s\", \"metres\": %.3g}",
@@ -159,11 +159,21 @@ static inline void material_coverage(RandomMaterial *m) {
     material_input(m, INPUT_opacity);
 }
 
-/* Draws material number `seed`. */
-static inline void random_material(RandomMaterial *m, uint64_t seed) {
+/* Adds what only light from all around asks: a normal map, and metal. */
+static inline void material_around(RandomMaterial *m, uint64_t seed) {
+    Random r = {seed * 0x9e3779b97f4a7c15u};
+    if (random_chance(&r, 0.6))
+        material_key(m, "normal", "{\"texture\": \"bumps.png\", \"factor\": %.3g, \"scale\": %.3g}",
+                     0.3 + 0.7 * (double)random_unit(&r), 1.0 + 3.0 * (double)random_unit(&r));
+    if (random_chance(&r, 0.3)) material_key(m, "metallic", "1");
+}
+
+/* Draws material number `seed`. around: for light from all around. */
+static inline void random_material(RandomMaterial *m, uint64_t seed, bool around) {
     *m = (RandomMaterial){.random = {seed * 0x2545f4914f6cdd1du}};
     material_begin(m);
-    material_weave(m);
+    if (around) material_around(m, seed);
+    material_weave(m, around ? 0.25 : 0.06);
     material_coverage(m);
 #define MATERIAL_CHOICE(name, help) material_choice(m, CHOICE_##name, #name);
     SURFACE_CHOICES(MATERIAL_CHOICE)
@@ -172,6 +182,22 @@ static inline void random_material(RandomMaterial *m, uint64_t seed) {
     m->used += (size_t)snprintf(m->text + m->used, MATERIAL_TEXT - m->used, "\n}\n");
     m->blended = strstr(m->text, "\"alpha_mode\": \"blend\"") != NULL;
     m->masked = strstr(m->text, "\"alpha_mode\": \"mask\"") != NULL;
+}
+
+/* Writes a normal map of round bumps. */
+static inline void random_bumps_write(const char *folder) {
+    WeftImage image;
+    char path[96];
+    assert_int_equal(weft_image_create(MAP_SIDE, MAP_SIDE, 3, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
+    for (int k = 0; k < MAP_SIDE * MAP_SIDE; k++) {
+        const float step = 2.0f * 3.14159265f / MAP_SIDE, x = 0.5f * (sinf)(step * (float)(k % MAP_SIDE)),
+                    y = 0.5f * (sinf)(step * (float)(k / MAP_SIDE)), n = 1.0f / (sqrtf)(1.0f + x * x + y * y);
+        const float normal[3] = {x * n, y * n, n};
+        for (int c = 0; c < 3; c++) ((uint8_t *)image.pixels)[3 * k + c] = (uint8_t)(127.5f + 127.5f * normal[c]);
+    }
+    snprintf(path, sizeof path, "%s/bumps.png", folder);
+    assert_int_equal(weft_image_write(path, &image, NULL), WEFT_OK);
+    weft_image_free(&image);
 }
 
 /* Writes the maps that the files name: blotches, a ramp, checks and stripes, each different in every channel. */
