@@ -29,6 +29,7 @@ typedef enum WeftPlotKind {
     WEFT_PLOT_SPHERE,     /* a lit sphere, and more of them as the roughness grows */
     WEFT_PLOT_SAMPLES,    /* of lobes: a histogram of the samples, the pdf, and their ratio */
     WEFT_PLOT_DIFFERENCE, /* of two models: the difference of f over theta_o and theta_i */
+    WEFT_PLOT_AMBIENT,    /* of lobes: a sphere under a map, and as engines light it by that map */
     WEFT_PLOT_KINDS
 } WeftPlotKind;
 
@@ -48,8 +49,8 @@ typedef enum WeftPlotChannel {
 enum { WEFT_PLOT_MODELS_MAX = 8, WEFT_PLOT_VIEWS_MAX = 6, WEFT_PLOT_SIDE_MAX = 8192 };
 
 /* A model to plot; the caller owns all members. Figures over roughness evaluate the lobe or material that the
- * reflection was made of, and WEFT_PLOT_SAMPLES samples the lobe. With WEFT_LOBE_REFERENCE each value is a mean over
- * nearby directions. */
+ * reflection was made of; WEFT_PLOT_SAMPLES and WEFT_PLOT_AMBIENT need a lobe. With WEFT_LOBE_REFERENCE each value is a mean
+ * over nearby directions. */
 typedef struct WeftPlotModel {
     const WeftReflection *reflection; /* the model */
     const WeftLobe *lobe;             /* if the reflection is a lobe, else NULL */
@@ -70,6 +71,7 @@ typedef struct WeftPlotDesc {
     WeftPlotChannel channel;          /* sphere and slice that is not logarithmic: all colours */
     const char *title;                /* above everything; NULL: the kind's own; "": none */
     int width, height;                /* pixels, 96 to the inch, <= WEFT_PLOT_SIDE_MAX; 0: its own */
+    const WeftImage *environment;     /* ambient: a lat-long map of floats, linear; NULL: the studio */
 } WeftPlotDesc;
 
 /* The layout of a panel's numbers. */
@@ -103,7 +105,7 @@ typedef struct WeftPlotFigure {
 } WeftPlotFigure;
 
 /* The largest number of figures and marks of a panel, and of entries of a legend. */
-enum { WEFT_PLOT_FIGURES_MAX = 6, WEFT_PLOT_MARKS_MAX = 4, WEFT_PLOT_LEGEND_MAX = 24 };
+enum { WEFT_PLOT_FIGURES_MAX = 8, WEFT_PLOT_MARKS_MAX = 4, WEFT_PLOT_LEGEND_MAX = 24 };
 
 /* A place on the x axis with a name: the mirror direction, a view. */
 typedef struct WeftPlotMark {
@@ -146,7 +148,7 @@ typedef struct WeftPlotData {
 } WeftPlotData;
 
 /* Computes the numbers that a figure shows. Fails with WEFT_MESSAGE_DESC (a value out of its range; samples
- * of a model that is not a lobe; a difference of other than two models) or _MEMORY. */
+ * or ambient of a model that is not a lobe; a map that has no floats; a difference of other than two models) or _MEMORY. */
 WEFT_API WeftResult weft_plot_data(const WeftPlotDesc *desc, WeftPlotData *out, WeftError *error);
 
 /* Releases the numbers and zeroes the struct. data may be NULL or all zero. */

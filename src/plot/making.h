@@ -26,6 +26,7 @@ WeftResult kind_slice(Making *making);
 WeftResult kind_sphere(Making *making);
 WeftResult kind_samples(Making *making);
 WeftResult kind_difference(Making *making);
+WeftResult kind_ambient(Making *making);
 
 WeftResult making_short(const Making *making);
 

@@ -72,7 +72,7 @@ WeftResult place_image(const Page *page, const WeftImage *image, PageBox box, bo
     return WEFT_OK;
 }
 
-/* The layout, in units of the type's size: a title, panels in rows of equal height, the legend, a note. */
+/* The layout, in units of the type's size: a title, panels in rows, the legend, a note. */
 
 static const double natural_type = 13.0;
 
@@ -118,16 +118,30 @@ static double legend_height(const WeftPlotData *data, double width) {
 static double head_height(const WeftPlotData *data) { return data->title[0] ? 2.8 : 0.6; }
 static double foot_height(const WeftPlotData *data) { return data->note[0] ? 1.9 : 0.6; }
 
+/* Returns the natural height of the first `rows` rows, each as high as its highest panel. */
+static double rows_height(const WeftPlotData *data, int rows) {
+    double sum = 0.0;
+    for (int row = 0; row < rows; row++) {
+        double most = 0.0, width, height;
+        for (int k = row * data->columns; k < data->count && k < (row + 1) * data->columns; k++) {
+            natural_panel(&data->panels[k], &width, &height);
+            most = fmax(most, height);
+        }
+        sum += most;
+    }
+    return sum;
+}
+
 static void natural(const WeftPlotData *data, double *width, double *height) {
-    double w = 0.0, h = 0.0;
+    double w = 0.0;
     for (int k = 0; k < data->count; k++) {
         double pw, ph;
         natural_panel(&data->panels[k], &pw, &ph);
         w = fmax(w, pw);
-        h = fmax(h, ph);
     }
     *width = 2.0 + w * columns_of(data);
-    *height = head_height(data) + h * rows_of(data) + legend_height(data, *width - 2.0) + foot_height(data);
+    *height =
+        head_height(data) + rows_height(data, rows_of(data)) + legend_height(data, *width - 2.0) + foot_height(data);
 }
 
 void page_natural(const WeftPlotData *data, int *width, int *height) {
@@ -201,7 +215,8 @@ WeftResult page_draw(const Page *page) {
     const double type = page->type;
     const double top = head_height(data) * type, legend = legend_height(data, page->width / type - 2.0) * type;
     const double bottom = page->height - foot_height(data) * type - legend;
-    const double width = (page->width - 2.0 * type) / columns_of(data), height = (bottom - top) / rows_of(data);
+    const double width = (page->width - 2.0 * type) / columns_of(data),
+                 unit = (bottom - top) / rows_height(data, rows_of(data));
     WeftResult result = WEFT_OK;
     cairo_set_source_rgb(page->cairo, 1.0, 1.0, 1.0);
     cairo_paint(page->cairo);
@@ -211,8 +226,8 @@ WeftResult page_draw(const Page *page) {
     }
     for (int k = 0; k < data->count && result == WEFT_OK; k++) {
         const int row = k / data->columns, column = k % data->columns;
-        result =
-            draw_panel(page, &data->panels[k], (PageBox){type + width * column, top + height * row, width, height});
+        const double from = unit * rows_height(data, row), to = unit * rows_height(data, row + 1);
+        result = draw_panel(page, &data->panels[k], (PageBox){type + width * column, top + from, width, to - from});
     }
     if (has_legend(data)) draw_legend(page, bottom);
     set_font(page->cairo, 0.75 * type, false);

@@ -41,6 +41,8 @@ static const FigureKind kinds[WEFT_PLOT_KINDS] = {
                            "Samples against their density", kind_samples},
     [WEFT_PLOT_DIFFERENCE] = {"difference", "where in theta_o and theta_i two models differ", "Difference",
                               kind_difference},
+    [WEFT_PLOT_AMBIENT] = {"ambient", "lobes only: a sphere under a map, as it is and as engines light it",
+                           "Light of a map", kind_ambient},
 };
 
 const char *weft_plot_kind_name(int kind) { return kind >= 0 && kind < WEFT_PLOT_KINDS ? kinds[kind].name : NULL; }
@@ -61,9 +63,13 @@ static const char *complaint(const WeftPlotDesc *desc) {
     if ((int)desc->channel < 0 || desc->channel > WEFT_PLOT_BLUE) return "there is no such channel";
     if (desc->width < 0 || desc->height < 0 || desc->width > WEFT_PLOT_SIDE_MAX || desc->height > WEFT_PLOT_SIDE_MAX)
         return "a side has up to 8192 pixels";
-    if (desc->kind == WEFT_PLOT_SAMPLES)
-        for (int k = 0; k < desc->count; k++)
-            if (!desc->models[k].lobe) return "only lobes are sampled by themselves";
+    for (int k = 0; k < desc->count; k++) {
+        const WeftLobe *lobe = desc->models[k].lobe;
+        if (desc->kind == WEFT_PLOT_SAMPLES && !lobe) return "only lobes are sampled by themselves";
+        if (desc->kind == WEFT_PLOT_AMBIENT && !lobe) return "engines light only lobes alone";
+        if (desc->kind == WEFT_PLOT_AMBIENT && weft_lobe_info(lobe->lobe)->traits & WEFT_LOBE_REFERENCE)
+            return "a lobe that walks at random has no table";
+    }
     return NULL;
 }
 

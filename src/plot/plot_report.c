@@ -123,9 +123,12 @@ static void table_put(Vector *page, const WeftPlotDesc *desc) {
 static bool serves(WeftPlotDesc *desc, WeftPlotModel *chosen) {
     int count = 0;
     if (desc->kind == WEFT_PLOT_DIFFERENCE) return desc->count == 2;
-    if (desc->kind != WEFT_PLOT_SAMPLES) return true;
-    for (int k = 0; k < desc->count; k++)
-        if (desc->models[k].lobe) chosen[count++] = desc->models[k];
+    if (desc->kind != WEFT_PLOT_SAMPLES && desc->kind != WEFT_PLOT_AMBIENT) return true;
+    for (int k = 0; k < desc->count; k++) {
+        const WeftLobe *lobe = desc->models[k].lobe;
+        const bool walks = lobe && weft_lobe_info(lobe->lobe)->traits & WEFT_LOBE_REFERENCE;
+        if (lobe && !(walks && desc->kind == WEFT_PLOT_AMBIENT)) chosen[count++] = desc->models[k];
+    }
     desc->models = chosen;
     desc->count = count;
     return count > 0;

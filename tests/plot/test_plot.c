@@ -365,6 +365,92 @@ static void report_page_refers_to_no_other_file(void **state) {
 
 /* Refusals. */
 
+/* A map of 64 x 32 pixels: white, with a strip of `bright` beyond it at the right; release with weft_image_free. */
+static WeftImage map_of(float bright) {
+    WeftImage map;
+    assert_int_equal(weft_image_create(64, 32, 3, WEFT_PIXEL_F32, &map, NULL), WEFT_OK);
+    float *p = map.pixels;
+    for (int k = 0; k < 64 * 32; k++)
+        for (int c = 0; c < 3; c++) p[3 * k + c] = k % 64 >= 44 && k % 64 < 48 ? 1.0f + bright : 1.0f;
+    return map;
+}
+
+/* The errors of the ways of a quick figure, in the order of the enumeration of ways. */
+enum { WEFTS, KHRONOS, FILAMENT, THREE, BABYLON, MATERIALX, OPENPBR, WAYS };
+static void ambient_errors(const Cloth *cloth, const WeftImage *map, double error[WAYS]) {
+    static const char *const names[WAYS] = {"weft",    "khronos",   "filament",       "three",
+                                            "babylon", "materialx", "babylon-openpbr"};
+    const WeftPlotDesc desc = {
+        .kind = WEFT_PLOT_AMBIENT, .models = &cloth->model, .count = 1, .quick = 1, .environment = map};
+    WeftPlotData data = data_of(&desc);
+    assert_int_equal(data.count, 2);
+    assert_int_equal(data.panels[0].figure_count, WAYS);
+    assert_int_equal(data.panels[1].series_count, WAYS);
+    for (int k = 0; k < WAYS; k++) {
+        assert_string_equal(data.panels[0].figures[k].name, names[k]);
+        assert_string_equal(data.legend[data.panels[1].series[k].entry], names[k]);
+        error[k] = data.panels[0].figures[k].value;
+        print_message("%s %s %.2f %%\n", cloth->model.label, names[k], error[k]);
+    }
+    weft_plot_data_free(&data);
+}
+
+/* Under an even map the light is E, in which engines err only by their own formulas of it. Under a strip of light, the
+ * irradiance of the normal is far off for a rim, and weft's own way is nearest. */
+static void light_of_a_map_is_near_by_weft_and_far_by_irradiance(void **state) {
+    (void)state;
+    Cloth fibres = {.reflection = NULL}, charlie = {.reflection = NULL};
+    WeftImage even = map_of(0.0f), strip = map_of(60.0f);
+    double error[WAYS];
+    cloth_of_lobe(&fibres, "ltc-fibre", "alpha", "0.5");
+    cloth_of_lobe(&charlie, "charlie-neubelt", "alpha", "0.25");
+    ambient_errors(&fibres, &even, error);
+    for (int k = KHRONOS; k <= MATERIALX; k++) assert_true(error[k] < 0.01);
+    assert_true(error[WEFTS] < 2.0);
+    assert_true(error[OPENPBR] > 10.0);
+    ambient_errors(&charlie, &even, error);
+    assert_true(error[THREE] > 1.0 && error[KHRONOS] < 0.01); /* a fit of E, and a lobe that is not its own */
+    ambient_errors(&charlie, &strip, error);
+    assert_true(error[THREE] > 25.0);
+    for (int k = KHRONOS; k < WAYS; k++) assert_true(error[WEFTS] < 0.5 * error[k]);
+    weft_image_free(&even);
+    weft_image_free(&strip);
+    cloth_free(&charlie);
+    cloth_free(&fibres);
+}
+
+/* A map must have floats, all of them finite, and models must be lobes of which there is a table. */
+static void ambient_without_sense_is_refused(void **state) {
+    (void)state;
+    Cloth walk = {.reflection = NULL}, whole = {.reflection = NULL}, cloth = {.reflection = NULL};
+    WeftImage bytes, map = map_of(0.0f);
+    WeftPlotDesc desc = {.kind = WEFT_PLOT_AMBIENT, .models = &cloth.model, .count = 1, .quick = 1};
+    WeftPlotData data;
+    WeftError error;
+    cloth_of_lobe(&cloth, "charlie-neubelt", NULL, NULL);
+    cloth_of_lobe(&walk, "fibre-walk", NULL, NULL);
+    cloth_of_profile(&whole, "three");
+    assert_int_equal(weft_image_create(8, 4, 3, WEFT_PIXEL_U8, &bytes, NULL), WEFT_OK);
+    desc.environment = &bytes;
+    assert_int_equal(weft_plot_data(&desc, &data, &error), WEFT_USAGE);
+    assert_non_null(strstr(error.text, "floats"));
+    ((float *)map.pixels)[7] = INFINITY;
+    desc.environment = &map;
+    assert_int_equal(weft_plot_data(&desc, &data, &error), WEFT_USAGE);
+    assert_non_null(strstr(error.text, "not finite"));
+    desc.models = &whole.model;
+    assert_int_equal(weft_plot_data(&desc, &data, &error), WEFT_USAGE);
+    assert_non_null(strstr(error.text, "only lobes"));
+    desc.models = &walk.model;
+    assert_int_equal(weft_plot_data(&desc, &data, &error), WEFT_USAGE);
+    assert_non_null(strstr(error.text, "at random"));
+    weft_image_free(&bytes);
+    weft_image_free(&map);
+    cloth_free(&cloth);
+    cloth_free(&walk);
+    cloth_free(&whole);
+}
+
 static void assert_refused(const WeftPlotDesc *desc, const char *part) {
     WeftPlotData data;
     WeftImage image;
@@ -451,6 +537,8 @@ int main(void) {
         cmocka_unit_test(figure_files_are_valid_and_repeatable),
         cmocka_unit_test(report_page_refers_to_no_other_file),
         cmocka_unit_test(plot_descriptors_without_sense_are_refused),
+        cmocka_unit_test(light_of_a_map_is_near_by_weft_and_far_by_irradiance),
+        cmocka_unit_test(ambient_without_sense_is_refused),
         cmocka_unit_test(figure_of_any_size_is_drawn),
     };
     return cmocka_run_group_tests(tests, begin, end);

@@ -116,7 +116,8 @@ static void grid_csv(const WeftPlotPanel *panel) {
 }
 
 void plot_csv(const WeftPlotData *data) {
-    bool curves = data->count > 0 && data->panels[0].series_count > 0;
+    bool curves = false;
+    for (int k = 0; k < data->count; k++) curves = curves || data->panels[k].series_count > 0;
     puts(curves ? "panel,series,x,y" : "panel,channel,x,y,value");
     for (int k = 0; k < data->count; k++)
         if (curves)

@@ -19,7 +19,8 @@ typedef struct Plot {
     const Options *options;
     WeftPlotDesc desc;
     WeftPlotModel models[WEFT_PLOT_MODELS_MAX];
-    Model *read; /* one for each of models */
+    Model *read;   /* one for each of models */
+    WeftImage map; /* ambient: of --env */
     const char *output;
     bool report; /* instead of a kind */
 } Plot;
@@ -112,8 +113,12 @@ static int models_read(Plot *plot) {
         plot->desc.count = k + 1; /* so that every model read so far is freed */
         int result = model_read(plot->options->operands[k + 1], model);
         if (result != 0) return result;
-        if (!plot->report && plot->desc.kind == WEFT_PLOT_SAMPLES && model->kind != MODEL_LOBE)
-            return report(WEFT_USAGE, "%.200s: is not a lobe, and only lobes have samples to plot", model->words);
+        const char *of_lobes = plot->report                           ? NULL
+                               : plot->desc.kind == WEFT_PLOT_SAMPLES ? "have samples to plot"
+                               : plot->desc.kind == WEFT_PLOT_AMBIENT ? "are lit by a map alone"
+                                                                      : NULL;
+        if (of_lobes && model->kind != MODEL_LOBE)
+            return report(WEFT_USAGE, "%.200s: is not a lobe, and only lobes %s", model->words, of_lobes);
         plot->models[k] =
             (WeftPlotModel){.reflection = model->reflection,
                             .lobe = model->kind == MODEL_LOBE ? &model->lobe : NULL,
@@ -121,6 +126,21 @@ static int models_read(Plot *plot) {
                             .label = label_of(model)};
     }
     plot->desc.models = plot->models;
+    return 0;
+}
+
+/* Reads the map of --env. */
+static int map_read(Plot *plot) {
+    const char *path = option_text(plot->options, "--env");
+    WeftError error;
+    if (!path) return 0;
+    if (plot->report || plot->desc.kind != WEFT_PLOT_AMBIENT)
+        return report(WEFT_USAGE, "--env: goes with the kind ambient alone");
+    if (weft_image_read(path, &plot->map, NULL, &error) != WEFT_OK) return report_error(&error);
+    if (plot->map.width != 2 * plot->map.height)
+        return report(WEFT_INPUT, "%.300s: %d x %d pixels are no lat-long map: it is twice as wide as high", path,
+                      plot->map.width, plot->map.height);
+    plot->desc.environment = &plot->map;
     return 0;
 }
 
@@ -138,6 +158,7 @@ static int plot_read(Plot *plot) {
     result = views_read(plot);
     if (result == 0) result = size_read(plot);
     if (result == 0) result = models_read(plot);
+    if (result == 0) result = map_read(plot);
     return result == 0 ? output_read(plot) : result;
 }
 
@@ -167,6 +188,7 @@ static int plot_run(const Options *options) {
     if (result == 0) result = plot_make(&plot);
     for (int k = 0; plot.read && k < plot.desc.count; k++) model_free(&plot.read[k]);
     free(plot.read);
+    weft_image_free(&plot.map);
     return result;
 }
 
@@ -184,6 +206,7 @@ static const Option plot_options[] = {
     OPTION_ROOT,
     OPTION_LIST("--view", "DEGREES",
                 "angle of wo from the normal, below 90; of sphere, between light and viewer, below 180"),
+    OPTION_TEXT("--env", "MAP", NULL, "ambient: a lat-long map of floats, .hdr or .exr [a studio]"),
     OPTION_SWITCH("--log", "f on a logarithmic scale; slice: in colours of a scale, not as a picture"),
     OPTION_SWITCH("--cos", "polar and lobe3d: f cos in place of f"),
     OPTION_TEXT("--channel", "CHANNEL", "luminance",
@@ -215,6 +238,7 @@ const Verb verb_plot = {
              "  weft plot albedo charlie-neubelt charlie-khronos --csv\n"
              "  weft plot slice preset:velvet cotton.binary -o slice.png\n"
              "  weft plot difference three khronos -o difference.png\n"
+             "  weft plot ambient charlie-neubelt --env studio.hdr -o ambient.png\n"
              "  weft plot report fibre charlie-neubelt -o report.html\n",
     .run = plot_run,
 };
