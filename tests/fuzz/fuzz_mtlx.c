@@ -2,24 +2,8 @@
  *
  * Any input must be read or refused with one line; sanitizers watch the rest. What was read must be a material file, but for
  * its pictures. Use the dictionary mtlx.dict. */
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "scene/material/material_file.h"
+#include "material_input.h"
 #include "scene/mtlx/mtlx_read.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void demand(int condition) {
-    if (!condition) abort();
-}
-
-static void note(void *user, WeftMessage message, const char *text) {
-    (void)user;
-    (void)message;
-    demand(text[0] && !strchr(text, '\n'));
-}
 
 /* Demands that the material file is read, or has a picture, which needs a file to lie beside. */
 static void check(const json_t *json, const WeftLog *log) {
@@ -39,10 +23,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     json_t *json;
     WeftError error;
     const WeftResult result = mtlx_read(data, size, "fuzz", &json, &log, &error);
-    if (result == WEFT_OK)
-        check(json, &log);
-    else
-        demand(error.result == result && error.text[0] && !strchr(error.text, '\n'));
+    demand_outcome(result, &error);
+    if (result == WEFT_OK) check(json, &log);
     json_decref(json);
     return 0;
 }

@@ -3,35 +3,24 @@
  *
  * Any input must be read or refused with one line; sanitizers watch the rest. What was read must be fit to shade with:
  * finite, and in its hard range. Use the dictionary u3m.dict. */
-#include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include "material_input.h"
 #include "scene/material/u3m.h"
+#include "scene/material/u3m_weave.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void demand(int condition) {
-    if (!condition) abort();
+/* In place of the program's own: looks the words up, and weaves nothing. To weave one of its own drafts takes a tenth of a
+ * second, and the file has no influence on that. */
+WeftResult u3m_weave(const json_t *physics, const char *name, MaterialFile *out, const WeftLog *log, WeftError *error) {
+    const char *draft, *yarn;
+    (void)name, (void)log, (void)error;
+    json_decref(u3m_words_weave(physics, out->material.inputs[INPUT_base_color].value, &draft, &yarn));
+    demand(yarn && yarn[0]);
+    return WEFT_OK;
 }
 
 static void check(const MaterialFile *file) {
-    for (int k = 0; k < INPUT_COUNT; k++) {
-        const WeftInputInfo *info = &input_infos[k];
-        const Input *input = &file->material.inputs[k];
-        for (int c = 0; c < (info->kind == WEFT_INPUT_COLOR ? 3 : 1); c++)
-            demand(isfinite(input->value[c]) && input->value[c] >= info->hard_low &&
-                   input->value[c] <= info->hard_high);
-        demand(input->texture == 0);
-    }
+    demand_ranges(&file->material);
+    for (int k = 0; k < INPUT_COUNT; k++) demand(file->material.inputs[k].texture == 0);
     demand(file->image_count == 0 && file->texture_count == 0);
-}
-
-static void note(void *user, WeftMessage message, const char *text) {
-    (void)user;
-    (void)message;
-    demand(text[0] && !strchr(text, '\n'));
 }
 
 /* Reads the .u3m of an archive with its pictures. */
@@ -41,14 +30,14 @@ static void archive_read(const uint8_t *data, size_t size) {
     FileBytes bytes = {0};
     WeftError error;
     if (u3m_archive_open(data, size, "fuzz", &archive, &error) != WEFT_OK) {
-        demand(error.text[0] && !strchr(error.text, '\n'));
+        demand_outcome(error.result, &error);
         return;
     }
     MaterialFile file;
     if (u3m_archive_read(archive, u3m_archive_material(archive), &bytes, &error) == WEFT_OK) {
         const WeftResult result =
             u3m_read(bytes.data, bytes.size, "fuzz", &(U3mFiles){"", archive}, &file, &log, &error);
-        demand(result == WEFT_OK || (error.text[0] && !strchr(error.text, '\n')));
+        demand_outcome(result, &error);
         material_file_free(&file);
     }
     free(bytes.data);
@@ -64,10 +53,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     MaterialFile file;
     WeftError error;
     const WeftResult result = u3m_read(data, size, "fuzz", &(U3mFiles){.folder = NULL}, &file, &log, &error);
-    if (result == WEFT_OK)
-        check(&file);
-    else
-        demand(error.result == result && error.text[0] && !strchr(error.text, '\n'));
+    demand_outcome(result, &error);
+    if (result == WEFT_OK) check(&file);
     material_file_free(&file);
     return 0;
 }
