@@ -160,6 +160,7 @@ static void stop(Viewer *v, bool interrupted) {
     sessions_end(v, interrupted);
     renderer_stop(v->renderer);
     stills_end(v); /* afterwards, since the renderer may be saving its scene */
+    bakings_end(v);
     reference_stop(v->reference);
     replay_close(v->replay);
     dialogs_end(v);
@@ -208,6 +209,7 @@ static int run(Viewer *v, char why[512]) {
         sessions_poll(v, started);
         any |= opening_watch(v, started);
         any |= stills_poll(v);
+        any |= bakings_poll(v);
         any |= photographs_poll(v);
         any |= presets_poll(v);
         any |= renderer_has_output(v->renderer) || reference_has_frame(v->reference) || v->opening->loader ||
@@ -257,6 +259,7 @@ Viewer *viewer_create(const ViewDesc *desc) {
                             .dialogs = &states->dialogs,
                             .drag = &states->drag,
                             .stills = &states->stills,
+                            .bakings = &states->bakings,
                             .leaving = &states->leaving,
                             .sessions = &states->sessions,
                             .photographs = &states->photographs,

@@ -107,6 +107,61 @@ static void saving_asks_before_it_replaces_a_file(void **state) {
     }
 }
 
+/* Returns the text of a .glb's JSON; to be freed. */
+static char *glb_text(const char *path) {
+    size_t size;
+    char *bytes = file_bytes(path, &size);
+    assert_non_null(bytes);
+    assert_true(size > 20);
+    uint32_t length;
+    memcpy(&length, bytes + 12, sizeof length);
+    assert_true(length <= size - 20);
+    memmove(bytes, bytes + 20, length);
+    bytes[length] = '\0';
+    return bytes;
+}
+
+/* Returns the mean green of the picture of a file, path traced. */
+static double mean_green(const char *path) {
+    WeftImage image;
+    WeftError error;
+    Ran ran = RUN("render", path, "--env", "1", "--width", "60", "--height", "60", "--spp", "16", "--quiet",
+                  "--background", "0,0,0", "-o", "mean.npy");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+    assert_int_equal(weft_image_read("mean.npy", &image, NULL, &error), WEFT_OK);
+    double sum = 0.0;
+    const int count = image.width * image.height;
+    for (int k = 0; k < count; k++) sum += (double)((const float *)image.pixels)[k * image.channels + 1];
+    weft_image_free(&image);
+    return sum / count;
+}
+
+/* The file has textures in place of the weave and reflects as much; where nothing is woven, nothing is offered. */
+static void a_weave_is_baked_into_the_saved_file(void **state) {
+    (void)state;
+    need_gl();
+#define BAKES "Save the scene/bake into the file"
+    Ran ran = RUN("render", "builtin:ball", "--preset", "woven-denim", "--save", "denim.glb");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+    drive_through("wait rest\nkey control+s\nwait 4\nclick \"" BAKES "\"\nwait 4\nwindow bake.png\n"
+                  "click \"Save the scene/Save\"\nwait message woven material baked\n",
+                  LIST(UNSEEN, "denim.glb"));
+    char *woven = glb_text("denim.glb"), *baked = glb_text("denim-weft.glb");
+    assert_non_null(strstr(woven, "\"weave\""));
+    assert_null(strstr(baked, "\"weave\""));
+    assert_non_null(strstr(baked, "normalTexture"));
+    assert_non_null(strstr(baked, "KHR_materials_anisotropy"));
+    free(woven);
+    free(baked);
+    const double threads = mean_green("denim.glb"), textures = mean_green("denim-weft.glb");
+    print_message("under an even sky %.4f of threads, %.4f of textures\n", threads, textures);
+    assert_true(fabs(textures / threads - 1.0) < 0.05);
+    Drive drive = drive_start("wait rest\nkey control+s\nwait 20\nquit\n", LIST(UNSEEN, "scene.gltf"));
+    assert_false(ever(&drive, BAKES, NULL));
+}
+
 static void saving_goes_to_the_folder_that_is_shown(void **state) {
     (void)state;
     need_gl();
@@ -124,6 +179,7 @@ static void saving_goes_to_the_folder_that_is_shown(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_bookmark_and_words_find_a_file_by_keys_and_by_mouse),
                                        cmocka_unit_test(saving_asks_before_it_replaces_a_file),
+                                       cmocka_unit_test(a_weave_is_baked_into_the_saved_file),
                                        cmocka_unit_test(saving_goes_to_the_folder_that_is_shown)};
     return cmocka_run_group_tests_name("view/dialogs", tests, dialogs_set_up, drive_end);
 }

@@ -8,6 +8,7 @@
 #include "base/path.h"
 #include "view/files/paths.h"
 #include "view/state/actions.h"
+#include "view/state/bakings.h"
 #include "view/state/states.h"
 #include "view/state/stills.h"
 #include "view/ui/browser.h"
@@ -215,13 +216,25 @@ static void draw_save(Viewer *v) {
     ui_dim(
         ".glb or .gltf: the scene as it is now; reading the file gives the same picture. .json: the material that is "
         "edited.");
+    const bool woven = bakings_possible(v);
     browser_draw_saving(dialogs->browser, 1u << PATH_SCENE | 1u << PATH_MATERIAL,
-                        ui_height_left() - 3.2f * ui_line_height(), dialogs->save_path, sizeof dialogs->save_path);
+                        ui_height_left() - (woven ? 4.4f : 3.2f) * ui_line_height(), dialogs->save_path,
+                        sizeof dialogs->save_path);
     bool entered = ui_input_path("file", dialogs->save_path, STATE_PATH);
     ui_tip("The name of the file, in the folder above, or a path.");
+    if (woven) {
+        ui_checkbox("bake into the file", &dialogs->bakes);
+        ui_tip(
+            "For other viewers, which know no threads: they get textures that are fitted to the cloth. The file is an "
+            "export: it has no weave to go on with.");
+    }
     if (draw_save_button(v, dialogs->save_path, entered, path)) {
         PathKind kind = path_kind(path);
-        if (kind == PATH_SCENE || kind == PATH_MATERIAL) {
+        if (kind == PATH_SCENE && woven && dialogs->bakes) {
+            bakings_save(v, path);
+            leaving_cancel(v);
+            ui_dialog_close();
+        } else if (kind == PATH_SCENE || kind == PATH_MATERIAL) {
             if (v->shown->any) actions_send(v, TASK_SAVE, path, v->edit->material, -1);
             ui_dialog_close();
         } else {

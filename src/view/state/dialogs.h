@@ -13,6 +13,7 @@ typedef struct DialogsState {
     char unsaid[4096]; /* what the copied command line cannot say, a line each */
     char due[32];      /* dialog to open in this frame */
     char save_path[STATE_PATH], shot_path[STATE_PATH];
+    bool bakes;       /* a scene is saved with its weaves baked to textures */
     StillChoice shot; /* samples 0: not yet chosen */
     bool shot_traced;
     bool shot_to_noise;       /* stops at the noise level of the choice */

@@ -204,7 +204,8 @@ void requests_take_events(Viewer *v) {
         if (event.kind == TASK_ASSIGN || event.kind == TASK_WEAVE || event.kind == TASK_WEAVE_KEY)
             edit_end_assign(v, event.stamp);
         if (event.kind == TASK_SAVE) edit_end_saving(v, event.stamp, event.failed), leaving_saved(v, event.failed);
-        if (event.kind == TASK_COPY) stills_saved(v, event.path, event.failed);
+        if (event.kind == TASK_COPY)
+            stills_saved(v, event.path, event.failed), bakings_copied(v, event.path, event.failed);
         if (event.kind == TASK_BIND_MAPS && !event.failed) opening_keep_folder(v, event.path);
         if (event.coverage) opening_varied(v, &event.coverage);
         if (event.kind == TASK_PROBE && !event.failed) {

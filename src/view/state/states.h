@@ -1,6 +1,7 @@
 /* states.h - the window's state for those who write it: each member for the .c file named like the header of its record */
 #pragma once
 
+#include "view/state/bakings.h"
 #include "view/state/dialogs.h"
 #include "view/state/edit.h"
 #include "view/state/frame_requests.h"
@@ -25,6 +26,7 @@ struct States {
     DialogsState dialogs;
     DragState drag;
     StillsState stills;
+    BakingsState bakings;
     LeavingState leaving;
     PhotographsState photographs;
     SessionsState sessions;

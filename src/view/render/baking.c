@@ -1,0 +1,100 @@
+#define _XOPEN_SOURCE 700 /* nftw */
+#include "view/render/baking.h"
+
+#include <ftw.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "view/render/still.h"
+#include "weft/match.h"
+#include "weft/save.h"
+#include "weft/weave.h"
+
+struct Baking {
+    char scene[STATE_PATH], path[STATE_PATH];
+    Window *window;
+    pthread_t thread;
+    atomic_bool stopped, done;
+    int materials; /* baked */
+    double off;    /* the largest WeftBaked.fitted */
+    WeftResult result;
+    WeftError error;
+};
+
+static int remove_one(const char *path, const struct stat *s, int kind, struct FTW *at) {
+    (void)s, (void)kind, (void)at;
+    return remove(path);
+}
+
+/* Bakes one material beside the copy of the scene. */
+static WeftResult bake_one(Baking *self, WeftScene *scene, int index) {
+    char folder[STATE_PATH + 16];
+    WeftBaked found = {0};
+    snprintf(folder, sizeof folder, "%s.bake", self->scene);
+    WeftResult result = weft_scene_bake(scene, index, &(WeftBaking){0}, folder, &found, &self->error);
+    (void)nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    self->materials += result == WEFT_OK;
+    if (found.fitted > self->off) self->off = found.fitted;
+    return result;
+}
+
+static WeftResult bake_all(Baking *self, WeftScene *scene) {
+    WeftMaterial material;
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < weft_scene_info(scene).material_count && result == WEFT_OK; k++) {
+        if (atomic_load(&self->stopped)) return WEFT_INTERRUPTED;
+        result = weft_scene_material(scene, k, &material, &self->error);
+        if (result == WEFT_OK && material.cloth) result = bake_one(self, scene, k);
+    }
+    return result;
+}
+
+static void *work(void *user) {
+    Baking *self = user;
+    WeftScene *scene;
+    self->result = weft_scene_load(self->scene, &scene, NULL, &self->error);
+    if (self->result == WEFT_OK) {
+        self->result = bake_all(self, scene);
+        if (self->result == WEFT_OK) self->result = weft_scene_save(scene, self->path, &self->error);
+        weft_scene_free(scene);
+    }
+    still_discard(self->scene);
+    atomic_store(&self->done, true);
+    if (self->window) window_wake(self->window);
+    return NULL;
+}
+
+Baking *baking_start(const char *scene, const char *path, Window *window) {
+    Baking *self = calloc(1, sizeof *self);
+    if (self) {
+        snprintf(self->scene, sizeof self->scene, "%s", scene);
+        snprintf(self->path, sizeof self->path, "%s", path);
+        self->window = window;
+        atomic_init(&self->stopped, false);
+        atomic_init(&self->done, false);
+        if (pthread_create(&self->thread, NULL, work, self) == 0) return self;
+    }
+    free(self);
+    still_discard(scene);
+    return NULL;
+}
+
+bool baking_done(Baking *self) { return atomic_load(&self->done); }
+
+bool baking_end(Baking *self, char line[512]) {
+    atomic_store(&self->stopped, true);
+    pthread_join(self->thread, NULL);
+    const bool made = self->result == WEFT_OK;
+    if (made)
+        snprintf(line, 512, "wrote %.380s, %d woven material%s baked, %.1f %% off the threads from afar", self->path,
+                 self->materials, self->materials == 1 ? "" : "s", 100.0 * self->off);
+    else if (self->result == WEFT_INTERRUPTED)
+        snprintf(line, 512, "cancelled: %.400s was not written", self->path);
+    else
+        snprintf(line, 512, "%s", self->error.text[0] ? self->error.text : "out of memory");
+    free(self);
+    return made;
+}
