@@ -481,6 +481,7 @@ class WeftBaking(Structure):
         ("pixels", c_int),
         ("metres", c_double),
         ("profile", c_char_p),
+        ("levels", c_int),
     ]
 
 
@@ -490,6 +491,7 @@ class WeftBaked(Structure):
         ("fitted", c_double),
         ("sky", c_double),
         ("contrast", c_double),
+        ("levels", c_double),
     ]
 
 
@@ -498,6 +500,8 @@ class WeftTarget(Structure):
         ("name", c_char_p),
         ("help", c_char_p),
         ("profile", c_char_p),
+        ("levels", c_int),
+        ("fit", c_char_p),
     ]
 
 
@@ -956,6 +960,7 @@ class WeftPlotDesc(Structure):
         ("title", c_char_p),
         ("width", c_int),
         ("height", c_int),
+        ("environment", POINTER(WeftImage)),
     ]
 
 
@@ -1013,7 +1018,7 @@ class WeftPlotPanel(Structure):
         ("entry", c_int),
         ("figure_count", c_int),
         ("mark_count", c_int),
-        ("figures", (WeftPlotFigure * 6)),
+        ("figures", (WeftPlotFigure * 8)),
         ("marks", (WeftPlotMark * 4)),
         ("cell_count", c_int),
         ("cells", ((c_char * 32) * 12)),
@@ -1196,7 +1201,7 @@ CONSTANTS = {
     "WEFT_PLOT_MODELS_MAX": 8,
     "WEFT_PLOT_VIEWS_MAX": 6,
     "WEFT_PLOT_SIDE_MAX": 8192,
-    "WEFT_PLOT_FIGURES_MAX": 6,
+    "WEFT_PLOT_FIGURES_MAX": 8,
     "WEFT_PLOT_MARKS_MAX": 4,
     "WEFT_PLOT_LEGEND_MAX": 24,
     "WEFT_RASTER_POLYGONS": 8,
@@ -1518,6 +1523,7 @@ ENUMS = {
         "sphere": 6,
         "samples": 7,
         "difference": 8,
+        "ambient": 9,
     },
     "WeftPlotChannel": {
         "luminance": 0,
@@ -1768,8 +1774,10 @@ CALLS = {
     "weft_match_asset": (c_int, (c_char_p, c_char_p, c_int, c_int, c_int, WeftProgress, c_void_p, c_void_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_match_report_free": (None, (POINTER(WeftAssetMatch),)),
     "weft_material_bake": (c_int, (POINTER(WeftMaterial), c_void_p, POINTER(WeftBaking), c_char_p, POINTER(WeftBaked), POINTER(WeftError),)),
+    "weft_scene_bake": (c_int, (c_void_p, c_int, POINTER(WeftBaking), c_char_p, POINTER(WeftBaked), POINTER(WeftError),)),
     "weft_target_info": (c_int, (c_int, POINTER(WeftTarget),)),
     "weft_deliver": (c_int, (c_char_p, c_char_p, c_int, c_int, c_int, WeftProgress, c_void_p, POINTER(WeftDelivery), POINTER(WeftLog), POINTER(WeftError),)),
+    "weft_deliver_levels": (c_int, (c_char_p, c_char_p, c_void_p, POINTER(WeftError),)),
     "weft_delivery_free": (None, (POINTER(WeftDelivery),)),
     "weft_metric_name": (c_char_p, (c_int,)),
     "weft_diff": (c_int, (POINTER(WeftDiffDesc), POINTER(WeftDiff), POINTER(WeftImage), POINTER(WeftError),)),
