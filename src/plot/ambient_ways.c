@@ -36,7 +36,7 @@ static const struct {
 const char *ambient_way_name(int way) { return ways[way].name; }
 
 /* The filters of look-ups, by the angle to their axis. */
-typedef enum Filter { FILTER_COSINE = 0, FILTER_CHARLIE, FILTER_GGX, FILTER_GGX_FINE, FILTERS } Filter;
+typedef enum AmbientFilter { FILTER_COSINE = 0, FILTER_CHARLIE, FILTER_GGX, FILTER_GGX_FINE, FILTERS } AmbientFilter;
 
 struct AmbientMap {
     Environment environment;
@@ -98,7 +98,7 @@ void ambient_map_free(AmbientMap *map) {
 }
 
 /* Returns the weight of light at that cosine to the mirror direction where the view is along it too: n . l D(h). */
-static float weight_of(Filter filter, float alpha, float mu) {
+static float weight_of(AmbientFilter filter, float alpha, float mu) {
     const float sin2 = fmaxf(0.5f * (1.0f - mu), 1e-9f), cos2 = 0.5f * (1.0f + mu), a2 = alpha * alpha;
     const float ggx = a2 / (cos2 * (a2 - 1.0f) + 1.0f);
     switch (filter) {
@@ -113,7 +113,7 @@ static void weights_make(AmbientModel *m) {
         const bool fine = filter == FILTER_GGX_FINE; /* its alpha is the square of the fuzz's, which is a roughness */
         const float alpha = fmaxf(fine ? m->alpha * m->alpha : m->alpha, 0.01f);
         for (int k = 0; k <= WEIGHTS; k++)
-            m->weights[filter][k] = weight_of(fine ? FILTER_GGX : (Filter)filter, alpha, (float)k / WEIGHTS);
+            m->weights[filter][k] = weight_of(fine ? FILTER_GGX : (AmbientFilter)filter, alpha, (float)k / WEIGHTS);
     }
 }
 
@@ -152,15 +152,19 @@ AmbientModel *ambient_model_make(const AmbientMap *map, const WeftPlotModel *mod
 void ambient_model_free(AmbientModel *model) { free(model); }
 
 /* A point of the sphere: its frame, wo in it, and the map. */
-typedef struct Spot {
+typedef struct AmbientSpot {
     const AmbientMap *map;
     Vec3 x, y, z;
     Dir o;
-} Spot;
+} AmbientSpot;
 
-static Vec3 to_world(const Spot *p, Dir w) { return vec3_madd(vec3_madd(vec3_scale(p->x, w.x), p->y, w.y), p->z, w.z); }
+static Vec3 to_world(const AmbientSpot *p, Dir w) {
+    return vec3_madd(vec3_madd(vec3_scale(p->x, w.x), p->y, w.y), p->z, w.z);
+}
 
-static Dir to_local(const Spot *p, Vec3 w) { return dir(vec3_dot(w, p->x), vec3_dot(w, p->y), vec3_dot(w, p->z)); }
+static Dir to_local(const AmbientSpot *p, Vec3 w) {
+    return dir(vec3_dot(w, p->x), vec3_dot(w, p->y), vec3_dot(w, p->z));
+}
 
 static Rgb look_up(const WeftImage *image, Vec3 d) {
     float c[3];
@@ -170,7 +174,7 @@ static Rgb look_up(const WeftImage *image, Vec3 d) {
 
 /* Returns the mean of the map weighted by exp(kappa (mu - 1)), by drawing from that. */
 static Rgb look_radiance(const void *user, Dir w, float kappa) {
-    const Spot *p = user;
+    const AmbientSpot *p = user;
     const WeftImage *image = kappa < 40.0f ? &p->map->small : &p->map->environment.image;
     const Vec3 z = to_world(p, w), x = vec3_normal_or(vec3_cross(z, vec3(0.3f, 0.5f, 0.8f)), z), y = vec3_cross(z, x);
     Rgb sum = rgb_grey(0.0f);
@@ -184,7 +188,7 @@ static Rgb look_radiance(const void *user, Dir w, float kappa) {
 }
 
 static Rgb look_irradiance(const void *user, Dir w) {
-    const Spot *p = user;
+    const AmbientSpot *p = user;
     float terms[AMBIENT_TERMS], c[3] = {0.0f, 0.0f, 0.0f};
     ambient_polynomials(to_world(p, w), terms);
     for (int k = 0; k < AMBIENT_TERMS; k++)
@@ -193,21 +197,21 @@ static Rgb look_irradiance(const void *user, Dir w) {
 }
 
 static Rgb look_rest(const void *user, Dir w, float kappa) {
-    const Spot *p = user;
+    const AmbientSpot *p = user;
     float c[3];
     ambient_rest_about(&p->map->parts, to_world(p, w), kappa, c);
     return rgb(c[0], c[1], c[2]);
 }
 
 static AmbientLight look_light(const void *user, int k) {
-    const Spot *p = user;
+    const AmbientSpot *p = user;
     const EnvLight *light = &p->map->parts.env_lights[k];
     return (AmbientLight){to_local(p, light->direction), rgb(light->color[0], light->color[1], light->color[2]),
                           env_light_density(light), k};
 }
 
 static AmbientLight look_point(const void *user, int k) {
-    const Spot *p = user;
+    const AmbientSpot *p = user;
     const EnvPoint *point = &p->map->parts.points[k];
     AmbientLight l = look_light(user, point->light);
     l.w = to_local(p, point->direction);
@@ -216,7 +220,7 @@ static AmbientLight look_point(const void *user, int k) {
 }
 
 /* Returns the light by weft's own way, of a white lobe. */
-static Rgb weft_light(const AmbientModel *m, const Spot *p) {
+static Rgb weft_light(const AmbientModel *m, const AmbientSpot *p) {
     const AmbientParts *parts = &p->map->parts;
     const AmbientSourceCalls calls = {.radiance = look_radiance,
                                       .irradiance = look_irradiance,
@@ -240,14 +244,14 @@ static Rgb weft_light(const AmbientModel *m, const Spot *p) {
 }
 
 /* The truth, the lobe's E, and the look-ups about axes: sums. */
-typedef struct Sums {
+typedef struct AmbientSums {
     int axis_count;
     Vec3 axes[3 + STREAKS];
-    Filter filters[3 + STREAKS];
+    AmbientFilter filters[3 + STREAKS];
     Rgb light[3 + STREAKS];
     float weight[3 + STREAKS];
     Rgb truth, albedo;
-} Sums;
+} AmbientSums;
 
 static float weight_at(const float *weights, float mu) {
     const float at = mu * WEIGHTS;
@@ -256,7 +260,7 @@ static float weight_at(const float *weights, float mu) {
 }
 
 /* Adds a cell to the look-ups. light: its radiance times its solid angle. */
-static void add_looks(const AmbientModel *m, Sums *s, Vec3 w, Rgb light, float angle) {
+static void add_looks(const AmbientModel *m, AmbientSums *s, Vec3 w, Rgb light, float angle) {
     for (int k = 0; k < s->axis_count; k++) {
         const float mu = vec3_dot(w, s->axes[k]);
         if (!(mu > 0.0f)) continue;
@@ -267,8 +271,8 @@ static void add_looks(const AmbientModel *m, Sums *s, Vec3 w, Rgb light, float a
 }
 
 /* Adds directions to the truth and to E. */
-static void add_truth(const AmbientModel *m, Sums *s, const Spot *p, int count, const float (*wi)[3], const Rgb *light,
-                      const float *angle) {
+static void add_truth(const AmbientModel *m, AmbientSums *s, const AmbientSpot *p, int count, const float (*wi)[3],
+                      const Rgb *light, const float *angle) {
     float f[SECTORS][3];
     const float wo[3] = {p->o.x, p->o.y, p->o.z};
     making_eval(m->model, wo, count, wi, 1, f);
@@ -279,8 +283,8 @@ static void add_truth(const AmbientModel *m, Sums *s, const Spot *p, int count, 
     }
 }
 
-/* Sums the look-ups over the cells of the map. */
-static void sum_looks(const AmbientModel *m, Sums *s) {
+/* Adds up the look-ups over the cells of the map. */
+static void sum_looks(const AmbientModel *m, AmbientSums *s) {
     const float *radiance = m->map->cells.pixels;
     const double step = PI_DOUBLE / CELLS_HEIGHT;
     for (int row = 0; row < CELLS_HEIGHT; row++) {
@@ -292,8 +296,8 @@ static void sum_looks(const AmbientModel *m, Sums *s) {
     }
 }
 
-/* Sums the truth over rings about the normal, uniform in the angle to it. */
-static void sum_truth(const AmbientModel *m, const Spot *p, Sums *s) {
+/* Adds up the truth over rings about the normal, uniform in the angle to it. */
+static void sum_truth(const AmbientModel *m, const AmbientSpot *p, AmbientSums *s) {
     float wi[SECTORS][3], angles[SECTORS];
     Rgb lights[SECTORS];
     for (int ring = 0; ring < RINGS; ring++) {
@@ -312,23 +316,23 @@ static void sum_truth(const AmbientModel *m, const Spot *p, Sums *s) {
 
 /* Names the look-ups: irradiance, the mirror direction by both filters, and six along the surface within 90 degrees of
  * the viewer's azimuth. */
-static void looks_make(const Spot *p, Sums *s) {
+static void looks_make(const AmbientSpot *p, AmbientSums *s) {
     const Dir mirror = dir(-p->o.x, -p->o.y, p->o.z);
     const float azimuth = atan2f(p->o.y, p->o.x);
     const Dir axes[3] = {dir(0.0f, 0.0f, 1.0f), mirror, mirror};
-    *s = (Sums){.axis_count = 3 + STREAKS};
+    *s = (AmbientSums){.axis_count = 3 + STREAKS};
     for (int k = 0; k < s->axis_count; k++) {
         const float phi = azimuth + PI_FLOAT * (((float)(k - 3) + 0.5f) / STREAKS - 0.5f);
         s->axes[k] = to_world(p, k < 3 ? axes[k] : dir(cosf(phi), sinf(phi), 0.0f));
-        s->filters[k] = k < 3 ? (Filter)k : FILTER_GGX_FINE;
+        s->filters[k] = k < 3 ? (AmbientFilter)k : FILTER_GGX_FINE;
     }
 }
 
-static Rgb look_mean(const Sums *s, int k) { return rgb_scale(s->light[k], 1.0f / fmaxf(s->weight[k], 1e-20f)); }
+static Rgb look_mean(const AmbientSums *s, int k) { return rgb_scale(s->light[k], 1.0f / fmaxf(s->weight[k], 1e-20f)); }
 
 static Rgb rgb_least(Rgb a, Rgb b) { return rgb(fminf(a.r, b.r), fminf(a.g, b.g), fminf(a.b, b.b)); }
 
-static Rgb streak_light(const AmbientModel *m, const Sums *s, float cosine) {
+static Rgb streak_light(const AmbientModel *m, const AmbientSums *s, float cosine) {
     Rgb mean = rgb_grey(0.0f), even = look_mean(s, FILTER_COSINE);
     for (int k = 3; k < s->axis_count; k++) mean = rgb_add(mean, rgb_scale(look_mean(s, k), 1.0f / STREAKS));
     const float rough = m->alpha * m->alpha;
@@ -343,13 +347,13 @@ static void put(Rgb c, float out[3]) {
 }
 
 void ambient_model_light(const AmbientModel *m, Vec3 n, float truth[3], float by[AMBIENT_WAYS][3]) {
-    static const Filter filters[AMBIENT_WAYS] = {
+    static const AmbientFilter filters[AMBIENT_WAYS] = {
         [WAY_KHRONOS] = FILTER_CHARLIE, [WAY_FILAMENT] = FILTER_GGX, [WAY_BABYLON] = FILTER_GGX};
     const float *f0 = m->model->lobe->f0;
     const Rgb color = rgb(f0[0], f0[1], f0[2]);
     const Vec3 eye = vec3(0.0f, 0.0f, 1.0f);
-    Spot p = {.map = m->map, .z = n};
-    Sums s;
+    AmbientSpot p = {.map = m->map, .z = n};
+    AmbientSums s;
     p.x = vec3_normal_or(vec3_cross(vec3(0.0f, 1.0f, 0.0f), n), vec3(1.0f, 0.0f, 0.0f));
     p.y = vec3_cross(n, p.x);
     p.o = to_local(&p, eye);

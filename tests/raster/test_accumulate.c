@@ -108,7 +108,7 @@ static void half_transparent_and_single_sided(void **state) {
 }
 
 /* A pane of rough glass before the balls, which neither engine shows through it at depth 1, and a sun that it lets pass. */
-static void thin_glass(void **state) {
+static void a_pane_of_thin_glass_agrees(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = balls();
@@ -256,7 +256,7 @@ int main(void) {
         cmocka_unit_test(under_a_polygon),
         cmocka_unit_test(under_punctual_lights),
         cmocka_unit_test(half_transparent_and_single_sided),
-        cmocka_unit_test(thin_glass),
+        cmocka_unit_test(a_pane_of_thin_glass_agrees),
         cmocka_unit_test(holes_of_a_map),
         cmocka_unit_test(a_sum_in_pieces),
         cmocka_unit_test(begins_without_a_jump),

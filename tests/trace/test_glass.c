@@ -184,7 +184,7 @@ static void inside_light_is_absorbed_by_beer(void **state) {
 }
 
 /* A matt ball in a ball of glass: it is lit through the glass, and looks larger. */
-static void what_is_inside_is_seen_larger(void **state) {
+static void a_ball_in_glass_is_seen_larger(void **state) {
     (void)state;
     double seen[2];
     for (int k = 0; k < 2; k++) {
@@ -213,7 +213,7 @@ int main(void) {
         cmocka_unit_test(rough_glass_sends_on_what_it_should),
         cmocka_unit_test(white_glass_vanishes),
         cmocka_unit_test(inside_light_is_absorbed_by_beer),
-        cmocka_unit_test(what_is_inside_is_seen_larger),
+        cmocka_unit_test(a_ball_in_glass_is_seen_larger),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -222,7 +222,7 @@ int source_write(Delivery *delivery, const TargetFile *file, char path[DELIVER_P
         profile = weft_profile_name(delivery->from);
     weft_scene_free(scene);
     snprintf(path, DELIVER_PATH, "%.3900s/source-%.32s-%d.glb", delivery->temporary, profile, levels);
-    if (result != 0 || access(path, F_OK) == 0) return result; /* it was made for a target before this */
+    if (result != 0 || access(path, F_OK) == 0) return result; /* made for an earlier target */
     scene = NULL;
     result = source_bake(delivery, profile, levels, &scene);
     if (result == 0) result = told(weft_scene_save(scene, path, &error), &error);

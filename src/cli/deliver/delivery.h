@@ -61,7 +61,7 @@ typedef struct Delivery {
     int pixels, width, height, spp;
     int textures; /* of cloth: of TextureFormat */
     char cameras[VIEW_COUNT][WEFT_CAMERA_TEXT];
-    bool woven;     /* it has cloth, which is baked for each target by itself */
+    bool woven;     /* X has cloth, which is baked for each target by itself */
     char lost[400]; /* what the original has and its textures lack, sentences; "": nothing */
     TargetFile files[DELIVER_TARGETS];
     int count;

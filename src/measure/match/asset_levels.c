@@ -19,7 +19,7 @@ enum { LEVELS_MOST = 17, MAPS = 2, BLOCK = 4 };
 static const float SLOPE_MOST = 8.0f; /* of a normal that lies almost in the surface */
 
 /* Four numbers a texel: a normal and alpha^2; slopes, and the sum of their squares; occlusion and metallic. */
-typedef enum Plane { PLANE_NORMAL, PLANE_SLOPES, PLANE_REST, PLANES } Plane;
+typedef enum LevelPlane { PLANE_NORMAL, PLANE_SLOPES, PLANE_REST, PLANES } LevelPlane;
 
 /* The maps of a material while they are made. */
 typedef struct FineMaps {

@@ -24,7 +24,7 @@ typedef struct PathMaterial {
     const WeftCloth *cloth;   /* the base is woven of this; NULL: not woven */
     const Measured *measured; /* reflects in place of the stack; NULL: the stack does */
     bool solid;               /* of solid glass, which was taken out of `stack` */
-    SolidGlass glass;         /* that of `stack`, if solid */
+    SolidGlass glass;         /* of the same material, if solid */
     SolidTable table;         /* of all its roughnesses, if solid */
     Rgb absorption;           /* inside, 1/m, if solid */
     TableRef sheen_e;         /* directional albedo of the sheen; TABLE_NONE without one */

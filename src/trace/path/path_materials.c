@@ -39,7 +39,7 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
     prepared->material = *material;
     prepared->material.inputs[INPUT_occlusion].texture = 0; /* paths trace it */
     prepared->material.inputs[INPUT_opacity].texture = 0;   /* a ray that hits has decided it */
-    prepared->material.inputs[INPUT_thickness].texture = 0; /* that of the mesh counts */
+    prepared->material.inputs[INPUT_thickness].texture = 0; /* the mesh bounds the glass */
     prepared->material.inputs[INPUT_attenuation_distance].texture = 0;
     prepared->material.inputs[INPUT_attenuation_color].texture = 0;
     prepared->untextured = material_plain(material);

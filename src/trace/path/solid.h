@@ -61,7 +61,8 @@ void solid_table_fill(const SolidGlass *glass, bool textured, SolidTable *table)
 /* Takes the highlight out of a stack that is seen from inside: that of the glass is another one there. */
 void solid_hide_highlight(Stack *stack);
 
-/* view: of the stack from wo, which solid_hide_highlight was called for if `inside`. The pointers are borrowed. */
+/* Prepares the glass and the rest as seen from wo. view: of the stack, whose highlight is hidden (solid_hide_highlight) if
+ * `inside`. Borrows its pointers. */
 SolidView solid_see(const SolidGlass *glass, const Stack *stack, const StackView *view, bool inside);
 
 /* Returns f cos and pdf of the glass alone, the pdf as part of that of all. */
