@@ -110,7 +110,7 @@ static float weight_of(AmbientFilter filter, float alpha, float mu) {
 
 static void weights_make(AmbientModel *m) {
     for (int filter = 0; filter < FILTERS; filter++) {
-        const bool fine = filter == FILTER_GGX_FINE; /* its alpha is the square of the fuzz's, which is a roughness */
+        const bool fine = filter == FILTER_GGX_FINE; /* alpha is the square of the roughness of the fuzz */
         const float alpha = fmaxf(fine ? m->alpha * m->alpha : m->alpha, 0.01f);
         for (int k = 0; k <= WEIGHTS; k++)
             m->weights[filter][k] = weight_of(fine ? FILTER_GGX : (AmbientFilter)filter, alpha, (float)k / WEIGHTS);

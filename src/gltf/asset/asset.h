@@ -182,7 +182,7 @@ typedef struct Asset {
         mesh_count, skin_count, camera_count, light_count, node_count;
     bool *material_shown; /* material_count + 1, the last for surfaces without a material */
     Material *backs;      /* of materials from behind, material_count + 1; NULL: none has one of its own */
-    bool *back_given;     /* which of them */
+    bool *back_given;     /* the materials that have one */
 } Asset;
 
 /* Records a sticky failure, of which the first is kept. detail is a printf format or NULL. */

@@ -273,7 +273,7 @@ static WeftResult level_face(MapBake *b, const WeftMaterial *material, const Wef
     if (result == WEFT_OK) result = write_levels(b, &levels, folder, error);
     if (result == WEFT_OK) {
         b->look.normal = levels.normal;
-        b->look.occlusion = 1.0f; /* its strength is in the map of each level */
+        b->look.occlusion = 1.0f; /* the map of each level has the strength */
         for (int k = 1; k < levels.count; k++) found->levels += levels.items[k].error / (levels.count - 1);
     }
     map_levels_free(&levels);

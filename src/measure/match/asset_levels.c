@@ -135,7 +135,7 @@ static void maps_name(json_t *material, const int textures[MAPS]) {
     json_object_set_new(normal, "index", json_integer(textures[0]));
     json_object_set_new(rough, "index", json_integer(textures[1]));
     if (shared) json_object_set_new(occlusion, "index", json_integer(textures[1]));
-    json_object_set_new(base, "roughnessFactor", json_real(1.0)); /* it is in the map */
+    json_object_set_new(base, "roughnessFactor", json_real(1.0)); /* the map has all of it */
 }
 
 /* Returns true if the maps of a material can have levels of their own. */
