@@ -117,22 +117,29 @@ static void glass_under_white_fuzz_sends_on_all_light(void **state) {
     assert_true(worst < 1e-3);
 }
 
-/* Neither share, metal, tint, ior, roughness, stretch, coat nor light through cloth beside it makes light. */
+/* Neither share, metal, tint, ior, roughness, stretch, coat nor light through cloth beside it makes light. Each second
+ * surface is white, with every pair of metalness and transmission and, of each, a range of light through cloth. */
 static void no_glass_gains_light(void **state) {
     (void)state;
     Random random = {21};
     double most = 0.0;
-    for (int n = 0; n < 60; n++) {
+    for (int n = 0; n < 72; n++) {
         Surface s = random_surface(&random, false);
+        const bool white = n % 2 == 0;
+        const int pair = n / 2 % 12;
         s.sheen_color = rgb_grey(0.0f);
-        s.transmission = n % 3 ? random_unit(&random) : 1.0f;
+        s.transmission = white ? 0.5f + 0.25f * (float)(pair / 4) : random_unit(&random);
+        if (white) {
+            s.metallic = 0.25f * (float)(pair % 4);
+            s.base_color = s.specular_color = rgb_grey(1.0f);
+        }
         s.attenuation_color = rgb_grey(1.0f);
         s.roughness = weft_mix(n % 2 ? 0.15f : 0.4f, 1.0f, s.roughness);
         if (s.roughness < 0.4f) s.anisotropy = 0.0f;
         s.clearcoat_roughness = weft_mix(0.3f, 1.0f, s.clearcoat_roughness);
-        s.diffuse_transmission = random_unit(&random);
+        s.diffuse_transmission = white ? 0.5f * (float)(n / 24) : random_unit(&random);
         s.diffuse_transmission_color = s.base_color;
-        const Dir o = direction_cos(0.1 + 0.015 * n, 0.4);
+        const Dir o = direction_cos(0.1 + 0.0125 * n, 0.4);
         const SeenStack seen = seen_through(&s, no_table, CHOICE_AUTO, o);
         double side[2];
         sums(&seen, o, 200, side);
@@ -140,6 +147,47 @@ static void no_glass_gains_light(void **state) {
     }
     print_message("R + T is at most %.4f\n", most);
     assert_true(most < 1.0 + 1.5e-3);
+}
+
+/* A white pane that is half metal reflects and sends on the mean of a metal and a pane, as glTF mixes them. */
+static void half_metal_is_the_mean_of_metal_and_glass(void **state) {
+    (void)state;
+    for (int n = 0; n < 4; n++) {
+        const Dir o = direction_cos(0.3 + 0.2 * n, 0.3);
+        double mean[2] = {0.0}, side[2];
+        for (int metallic = 0; metallic < 3; metallic++) {
+            Surface s = pane(0.4f + 0.1f * (float)n);
+            s.metallic = metallic < 2 ? (float)metallic : 0.5f;
+            const SeenStack seen = seen_through(&s, no_table, CHOICE_AUTO, o);
+            sums(&seen, o, 300, side);
+            for (int k = 0; k < 2 && metallic < 2; k++) mean[k] += 0.5 * side[k];
+        }
+        for (int k = 0; k < 2; k++)
+            if (fabs(side[k] - mean[k]) > 1e-4) fail_msg("pane %d, side %d: %g is not %g", n, k, side[k], mean[k]);
+    }
+}
+
+/* What facets that are stretched lose stays lost in part: it is that of their smaller alpha which is given back. */
+static void stretched_glass_loses_light(void **state) {
+    (void)state;
+    static const float stretches[] = {0.0f, 0.3f, 0.6f, 0.9f};
+    double least[4], most = 0.0;
+    for (int k = 0; k < 4; k++) {
+        least[k] = 2.0;
+        for (int n = 0; n < 16; n++) {
+            Surface s = pane(0.3f);
+            s.anisotropy = stretches[k];
+            const Dir o = direction_cos(0.25 + 0.25 * (n % 4), 0.5 * (n / 4));
+            const SeenStack seen = seen_through(&s, no_table, CHOICE_AUTO, o);
+            double side[2];
+            sums(&seen, o, 300, side);
+            least[k] = fmin(least[k], side[0] + side[1]);
+            most = fmax(most, side[0] + side[1]);
+        }
+    }
+    print_message("R + T at roughness 0.3 is at least %.3f, %.3f, %.3f, %.3f at anisotropy 0, .3, .6, .9\n", least[0],
+                  least[1], least[2], least[3]);
+    assert_true(most < 1.0 + 1e-3 && least[0] > 0.999 && least[1] > 0.95 && least[3] > 0.5);
 }
 
 static void glass_is_the_same_both_ways(void **state) {
@@ -215,6 +263,8 @@ int main(void) {
         cmocka_unit_test(white_glass_sends_on_all_light),
         cmocka_unit_test(glass_under_white_fuzz_sends_on_all_light),
         cmocka_unit_test(no_glass_gains_light),
+        cmocka_unit_test(half_metal_is_the_mean_of_metal_and_glass),
+        cmocka_unit_test(stretched_glass_loses_light),
         cmocka_unit_test(glass_is_the_same_both_ways),
         cmocka_unit_test(samples_find_the_light_through_glass),
         cmocka_unit_test(colour_and_thickness_take_what_they_say),

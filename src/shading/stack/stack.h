@@ -98,6 +98,7 @@ STRUCT(Stack) {
     Rgb transmitted;            /* the colour of that light, times its share */
     float transmitted_p;        /* the share of the diffuse slot's samples */
     float glass;        /* the share of the light below the specular interface that goes through as through glass */
+    float glass_taken;  /* the share that it takes of diffuse and of transmitted light: metal has none to take */
     Rgb glass_tint;     /* the colour of that light, times its share */
     float glass_p;      /* the share of the diffuse slot's samples */
     float glass_lost;   /* alpha of facets whose lost light goes through; 0: it stays lost */
@@ -227,6 +228,7 @@ FN void stack_clear(Stack *m) {
     m->transmitted = rgb_grey(0.0f);
     m->transmitted_p = 0.0f;
     m->glass = 0.0f;
+    m->glass_taken = 0.0f;
     m->glass_tint = rgb_grey(0.0f);
     m->glass_p = 0.0f;
     m->glass_lost = 0.0f;
@@ -275,7 +277,7 @@ FN float stack_glass_facing(const Stack *m) {
  * reflected and what is transmitted; so a black lobe that transmits keeps its slot. */
 FN void stack_split_diffuse(Stack *m) {
     if (!HAS_TRANSMITTED(m)) return;
-    float kept = (1.0f - m->transmission) * (1.0f - m->glass), through = rgb_mean(m->transmitted);
+    float kept = (1.0f - m->transmission) * (1.0f - m->glass_taken), through = rgb_mean(m->transmitted);
     float facing = max(through * (1.0f - rgb_max3(m->interface_f0)), 0.0f), clear = stack_glass_facing(m);
     float least = m->diffuse.normal + through + clear > 0.0f ? 1e-30f : 0.0f;
     m->diffuse.f0 = rgb_scale(m->diffuse.f0, kept);

@@ -42,11 +42,24 @@ static Rgb interface_at(const SolidView *view, float c) {
     return rgb_mix(glass->interface_f0, rgb_grey(glass->interface_f90), schlick_s(outside));
 }
 
+/* Returns the colour of what a facet reflects at the cosine c on the side of wo: from inside all that it reflects from
+ * outside, but that of glass by its own F there. */
+static Rgb reflects_at(const SolidView *view, float c) {
+    const SolidGlass *glass = view->glass;
+    const float s = schlick_s(c);
+    const Rgb opaque = rgb_mix(glass->f0, glass->f90, s),
+              outside = rgb_mix(glass->interface_f0, rgb_grey(glass->interface_f90), s),
+              inside = rgb_scale(interface_at(view, c), view->scale),
+              f = rgb_add(opaque, rgb_scale(rgb_add(inside, rgb_scale(outside, -1.0f)), glass->share));
+    return rgb(max(f.r, 0.0f), max(f.g, 0.0f), max(f.b, 0.0f));
+}
+
 /* Returns the probability that a facet reflects a sample: 0 outside, where the stack has the reflection. */
 static float reflects_p(const SolidView *view, float c) {
     if (!view->inside) return 0.0f;
-    const float f = min(rgb_mean(interface_at(view, c)), 1.0f), through = (1.0f - f) * rgb_mean(view->glass->tint);
-    return f / max(f + through, 1e-12f);
+    const float f = min(rgb_mean(interface_at(view, c)), 1.0f), through = (1.0f - f) * rgb_mean(view->glass->tint),
+                reflected = rgb_mean(reflects_at(view, c));
+    return reflected / max(reflected + through, 1e-12f);
 }
 
 /* Returns the part of samples for the glass: about the part of all light that it sends on. */
@@ -87,11 +100,8 @@ SolidView solid_see(const SolidGlass *glass, const Stack *stack, const StackView
 
 /* Returns f cos and pdf of light that the surface reflects inside. */
 static StackValue reflected(const SolidView *view, const Angles *a) {
-    const SolidGlass *glass = view->glass;
     const LobeValue lobe = ggx_value(&view->facets, &view->facets_view, *a);
-    const Rgb opaque = rgb_mix(glass->f0, glass->f90, schlick_s(a->d));
-    const Rgb f = rgb_mul(rgb_mix(opaque, rgb_scale(interface_at(view, a->d), view->scale), glass->share),
-                          stack_over_glass(view->stack, view->view, a));
+    const Rgb f = rgb_mul(reflects_at(view, a->d), stack_over_glass(view->stack, view->view, a));
     return (StackValue){rgb_scale(f, lobe.f * a->i.z), view->p * reflects_p(view, a->d) * lobe.pdf};
 }
 
