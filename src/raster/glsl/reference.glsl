@@ -119,11 +119,18 @@ Rgb shown_f_cos(Stack m, StackView w, Dir i, Rgb all) { return all; }
 #endif
 
 /* Returns f cos for light of the environment, which has a factor of its own on the diffuse lobe and dust, and one on the
- * others. */
+ * others and on thin glass. */
 #ifdef SKY_IN_PARTS
+Rgb clear_f_cos(Stack m, StackView w, Dir i) {
+    Rgb f = rgb_grey(0.0);
+    if (HAS_GLASS(m) && SHOWS_DIFFUSE && i.z < 0.0)
+        f = stack_through_glass(m, w, angles_between(w.o, dir(i.x, i.y, -i.z))).f_cos;
+    return f;
+}
 Rgb sky_f_cos(Stack m, StackView w, Dir i, Rgb all) {
     Slots rest = Slots(false, SHOWS_SPECULAR, SHOWS_SHEEN, SHOWS_COAT, false);
-    Rgb f = rgb_scale(stack_towards(m, w, rest, i).f_cos, sky_parts.y - sky_parts.x);
+    Rgb apart = rgb_add(stack_towards(m, w, rest, i).f_cos, clear_f_cos(m, w, i));
+    Rgb f = rgb_scale(apart, sky_parts.y - sky_parts.x);
     f = rgb_add(f, rgb_scale(all, sky_parts.x));
     return rgb(max(f.r, 0.0), max(f.g, 0.0), max(f.b, 0.0));
 }

@@ -37,6 +37,12 @@ StackValue stack_eval_of(const Stack *stack, const StackView *view, Slots only, 
     return value_of(stack, view, only, i);
 }
 
+Rgb stack_clear_f_cos(const Stack *stack, const StackView *view, Dir i) {
+    if (!HAS_GLASS(stack) || view->o.z <= 0.0f || i.z >= 0.0f) return rgb_grey(0.0f);
+    const Angles a = angles_between(view->o, dir(i.x, i.y, -i.z));
+    return stack_through_glass(stack, view, &a).f_cos;
+}
+
 void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed, StackValue *value) {
     *value = (StackValue){0};
     if (view->o.z <= 0.0f) return;

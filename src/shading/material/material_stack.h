@@ -34,6 +34,10 @@ ONE_COPY void stack_eval(const Stack *stack, const StackView *view, const Dir *i
 /* Works as stack_eval, for some of the slots, and without the walk of layer rule stochastic. */
 ONE_COPY StackValue stack_eval_of(const Stack *stack, const StackView *view, Slots only, Dir i);
 
+/* Returns f cos of the light that comes straight through thin glass from wi below the horizon: the part of stack_eval
+ * there that is no diffuse light. */
+ONE_COPY Rgb stack_clear_f_cos(const Stack *stack, const StackView *view, Dir i);
+
 /* Computes a wi for (u, v) in [0, 1)^2. If there is no sample, wi is at the horizon, or below it if nothing is
  * transmitted. */
 ONE_COPY void stack_sample(const Stack *stack, const StackView *view, float u, float v, Dir *i);

@@ -61,12 +61,13 @@ static void put_value(Chunk *chunk, int direction, int k, const Rgb *f_cos, floa
 }
 
 /* Returns f cos for light of the environment, from the f_cos that stack_eval returned with that seed: `ambient` times
- * what the diffuse lobe and dust reflect first, plus `reflection` times what the other lobes do. */
+ * what the diffuse lobe and dust reflect first, plus `reflection` times what the other lobes and thin glass do. */
 static Rgb f_cos_of_sky(const PathContext *context, const Stack *stack, const StackView *view, Dir wi, uint32_t seed,
                         Rgb f_cos) {
     const Environment *sky = &context->scene->environment;
     Slots others = slots_of(false, true, true, true, false);
     Rgb rest = rgb_add(stack_eval_of(stack, view, others, wi).f_cos, layer_walk_bounces(stack, view, others, wi, seed));
+    rest = rgb_add(rest, stack_clear_f_cos(stack, view, wi));
     Rgb f = rgb_add(rgb_scale(f_cos, sky->ambient), rgb_scale(rest, sky->reflection - sky->ambient));
     return rgb(max(f.r, 0.0f), max(f.g, 0.0f), max(f.b, 0.0f));
 }
