@@ -8,13 +8,13 @@
 
 enum { SIDE = 64, SIDE_QUICK = 20, SIDE_ROUGH = 14, ROUGHS = 9, ROUGHS_QUICK = 3, CELLS = 1 + AMBIENT_WAYS };
 
-/* One sphere of so many pixels across, truth first, and the sums of its rows. */
+/* One sphere of so many pixels across, reference first, and the sums of its rows. */
 typedef struct Spheres {
     const Making *making;
     const AmbientModel *model;
     int side;
     float *values;         /* CELLS spheres beside each other, or NULL */
-    double (*sums)[CELLS]; /* a row: of the truth, and of the differences from it */
+    double (*sums)[CELLS]; /* a row: of the reference, and of the differences from it */
 } Spheres;
 
 static void sphere_pixel(const Spheres *s, int row, int column) {
@@ -38,7 +38,7 @@ static void sphere_row(void *user, int row, int thread) {
     for (int k = 0; k < s->side; k++) sphere_pixel(s, row, k);
 }
 
-/* Draws the spheres of a model, and computes the error of each way: sum |difference| / sum of the truth, to a tenth of
+/* Draws the spheres of a model, and computes the error of each way: sum |difference| / sum of the reference, to a tenth of
  * a per cent. */
 static bool spheres_make(const Making *making, const AmbientMap *map, const WeftPlotModel *model, int side,
                          float *values, double error[AMBIENT_WAYS]) {
@@ -70,7 +70,7 @@ static bool picture_make(Making *making, const AmbientMap *map, int model) {
     if (!values || !spheres_make(making, map, &making->desc->models[model], side, values, error)) return false;
     panel->colored = 1;
     panel->cell_count = CELLS;
-    snprintf(panel->cells[0], sizeof panel->cells[0], "truth");
+    snprintf(panel->cells[0], sizeof panel->cells[0], "reference");
     for (int k = 0; k < AMBIENT_WAYS; k++) {
         snprintf(panel->cells[1 + k], sizeof panel->cells[1 + k], "%s", ambient_way_name(k));
         making_figure(panel, ambient_way_name(k), "%", error[k]);

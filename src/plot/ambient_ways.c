@@ -17,7 +17,7 @@
 #include "shading/material/choice.h"
 #include "shading/material/material_stack.h"
 
-enum { RINGS = 96, SECTORS = 128 }; /* of the truth */
+enum { RINGS = 96, SECTORS = 128 }; /* of the reference */
 enum { CELLS_WIDTH = 128, CELLS_HEIGHT = 64, SMALL_WIDTH = 256, WEIGHTS = 512, LOOKS = 128, STREAKS = 6 };
 
 /* The profile with the way's formula of E; NULL: E is the lobe's. */
@@ -243,14 +243,14 @@ static Rgb weft_light(const AmbientModel *m, const AmbientSpot *p) {
     return stack_ambient(&seen.stack, &seen.view, tables, &calls, 1.0f, 1.0f);
 }
 
-/* The truth, the lobe's E, and the look-ups about axes: sums. */
+/* The reference, the lobe's E, and the look-ups about axes: sums. */
 typedef struct AmbientSums {
     int axis_count;
     Vec3 axes[3 + STREAKS];
     AmbientFilter filters[3 + STREAKS];
     Rgb light[3 + STREAKS];
     float weight[3 + STREAKS];
-    Rgb truth, albedo;
+    Rgb reference, albedo;
 } AmbientSums;
 
 static float weight_at(const float *weights, float mu) {
@@ -270,15 +270,15 @@ static void add_looks(const AmbientModel *m, AmbientSums *s, Vec3 w, Rgb light, 
     }
 }
 
-/* Adds directions to the truth and to E. */
-static void add_truth(const AmbientModel *m, AmbientSums *s, const AmbientSpot *p, int count, const float (*wi)[3],
+/* Adds directions to the reference and to E. */
+static void add_exact(const AmbientModel *m, AmbientSums *s, const AmbientSpot *p, int count, const float (*wi)[3],
                       const Rgb *light, const float *angle) {
     float f[SECTORS][3];
     const float wo[3] = {p->o.x, p->o.y, p->o.z};
     making_eval(m->model, wo, count, wi, 1, f);
     for (int k = 0; k < count; k++) {
         const Rgb f_cos = rgb_scale(rgb(f[k][0], f[k][1], f[k][2]), wi[k][2]);
-        s->truth = rgb_add(s->truth, rgb_mul(f_cos, light[k]));
+        s->reference = rgb_add(s->reference, rgb_mul(f_cos, light[k]));
         s->albedo = rgb_add(s->albedo, rgb_scale(f_cos, angle[k]));
     }
 }
@@ -296,8 +296,8 @@ static void sum_looks(const AmbientModel *m, AmbientSums *s) {
     }
 }
 
-/* Adds up the truth over rings about the normal, uniform in the angle to it. */
-static void sum_truth(const AmbientModel *m, const AmbientSpot *p, AmbientSums *s) {
+/* Adds up the reference over rings about the normal, uniform in the angle to it. */
+static void sum_exact(const AmbientModel *m, const AmbientSpot *p, AmbientSums *s) {
     float wi[SECTORS][3], angles[SECTORS];
     Rgb lights[SECTORS];
     for (int ring = 0; ring < RINGS; ring++) {
@@ -310,7 +310,7 @@ static void sum_truth(const AmbientModel *m, const AmbientSpot *p, AmbientSums *
             lights[k] = rgb_scale(look_up(&m->map->small, to_world(p, i)), angles[k]);
             wi[k][0] = i.x, wi[k][1] = i.y, wi[k][2] = i.z;
         }
-        add_truth(m, s, p, SECTORS, (const float(*)[3])wi, lights, angles);
+        add_exact(m, s, p, SECTORS, (const float(*)[3])wi, lights, angles);
     }
 }
 
@@ -346,7 +346,7 @@ static void put(Rgb c, float out[3]) {
     out[2] = c.b;
 }
 
-void ambient_model_light(const AmbientModel *m, Vec3 n, float truth[3], float by[AMBIENT_WAYS][3]) {
+void ambient_model_light(const AmbientModel *m, Vec3 n, float reference[3], float by[AMBIENT_WAYS][3]) {
     static const AmbientFilter filters[AMBIENT_WAYS] = {
         [WAY_KHRONOS] = FILTER_CHARLIE, [WAY_FILAMENT] = FILTER_GGX, [WAY_BABYLON] = FILTER_GGX};
     const float *f0 = m->model->lobe->f0;
@@ -359,8 +359,8 @@ void ambient_model_light(const AmbientModel *m, Vec3 n, float truth[3], float by
     p.o = to_local(&p, eye);
     looks_make(&p, &s);
     sum_looks(m, &s);
-    sum_truth(m, &p, &s);
-    put(s.truth, truth);
+    sum_exact(m, &p, &s);
+    put(s.reference, reference);
     for (int way = WAY_KHRONOS; way <= WAY_MATERIALX; way++) {
         const Rgb e = m->own[way] ? s.albedo : rgb_scale(color, stack_albedo(&m->engines[way], p.o).e);
         put(rgb_mul(e, look_mean(&s, filters[way])), by[way]);

@@ -1,4 +1,4 @@
-/* ambient_ways.h - the light of a map that a lobe reflects: the truth, and the ways in which engines find it
+/* ambient_ways.h - the light of a map that a lobe reflects: the reference, and the ways in which engines find it
  *
  *   way              look-up of the map                                                              times
  *   weft             the default strategy of shading/ambient/ambient_lobe.h
@@ -52,6 +52,6 @@ typedef struct AmbientModel AmbientModel;
 AmbientModel *ambient_model_make(const AmbientMap *map, const WeftPlotModel *model);
 void ambient_model_free(AmbientModel *model);
 
-/* Computes the light from a point of a unit sphere that is seen from afar along -z of the map: the truth, and by each
+/* Computes the light from a point of a unit sphere that is seen from afar along -z of the map: the reference, and by each
  * way. n: the normal, n.z > 0. */
-void ambient_model_light(const AmbientModel *model, Vec3 n, float truth[3], float ways[AMBIENT_WAYS][3]);
+void ambient_model_light(const AmbientModel *model, Vec3 n, float reference[3], float ways[AMBIENT_WAYS][3]);

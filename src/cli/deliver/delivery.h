@@ -34,7 +34,7 @@ typedef struct Errors {
     double sky; /* light returned under an even sky over the reference's, less 1 */
 } Errors;
 
-/* How textures of cloth are written: as each viewer reads them best, or all as PNG or KTX 2. */
+/* The formats of textures of cloth: what each viewer reads best, or all PNG or KTX 2. */
 typedef enum TextureFormat { TEXTURES_AUTO, TEXTURES_PNG, TEXTURES_KTX2 } TextureFormat;
 
 /* Stands for a U3M among targets, which are glTF otherwise. */

@@ -10,8 +10,8 @@
 #include "measure/fit/search.h"
 #include "scene/record/material_at.h"
 
-/* Of a look: blocks of 4 by 4 texels, of which every other one in both directions is shaded; and around each the mean of
- * 16 by 16, of which every fourth one is counted. */
+/* The pattern of a look: blocks of 4 by 4 texels, of which every other one in both directions is shaded; and around each the
+ * mean of 16 by 16, of which every fourth one is counted. */
 enum { BLOCKS = 48, ROUGH_BLOCKS = 16, FINE = 4, COARSE = 16, TEXELS = FINE + 1 };
 
 /* The numbers that are searched for; all others follow. */

@@ -85,7 +85,7 @@ FN void workflow_glass(Stack *m, const Surface *s, float weight) {
     m->glass_tint = rgb_scale(rgb_mul(s->base_color, glass_left(s, s->thickness)), share);
     m->glass_lost = m->specular.lobe.params[GGX_ALPHA];
     m->transmitted = rgb_scale(m->transmitted, 1.0f - s->transmission);
-    m->specular.normal = max(m->specular.normal, 1e-30f); /* its lobe is that of the glass even where it is black */
+    m->specular.normal = max(m->specular.normal, 1e-30f); /* glass takes its lobe even where it is black */
 }
 
 /* Sets the matt roughness of the diffuse lobe: EON of Jamie Portsmouth, Peter Kutz, Stephen Hill, JCGT 14(1), 2025, as

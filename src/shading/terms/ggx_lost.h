@@ -1,4 +1,4 @@
-/* ggx_lost - what single scattering between the facets of d_ggx loses, and the light that brings it back
+/* ggx_lost - the light that single scattering between the facets of d_ggx loses, and the lobe that brings it back
  *
  *   L(cos_o) = 1 - E(cos_o),  E: of D V with F = 1, V that of v_smith_ggx_correlated
  *   lost(wo, wi) = L(cos_o) L(cos_i) / (pi Lm),  Lm = 2 int L(c) c dc                              [1/sr]

@@ -93,7 +93,7 @@ static const Stack *stack_at(Chunk *chunk, const PathMaterial *material, int k) 
     return &chunk->stack;
 }
 
-/* What reflects and transmits at a vertex. */
+/* The stack or the solid at a vertex, which reflects and transmits. */
 typedef struct Shaded {
     const Stack *stack;
     const StackView *view;
