@@ -20,7 +20,7 @@ void add_point(int x, int y, float fits, float guide, inout vec4 sum) {
     sum += vec4(point.rgb, 1.0) * (off < 32768.0 ? same : min(point.a, 1e-9));
 }
 
-/* Returns ln(1 + x) within 1 % for x from -0.4 to 0.6. */
+/* Returns ln(1 + x) within 2.2 % for x from -0.4 to 0.6. */
 float log_1_and(float x) { return x / (1.0 + 0.5 * max(x, -1.0)); }
 
 void main() {

@@ -49,7 +49,7 @@ vec3 vertex_place() {
     vec3 place = at_position - eye.xyz;
     float wider = max(coarse.z * (to_clip * vec4(place, 1.0)).w / (2.0 * hair_half), 1.0);
     float chance = min(1.0 / (HAIR_LEAST * wider), 1.0);
-    bool drawn = at_across.w < chance && (least_opacity < 0.5 || wider < 1.05);
+    bool drawn = at_across.w <= chance && (least_opacity < 0.5 || wider < 1.05);
     hair_covers = 1.0 / (chance * wider);
     return place + at_across.xyz * (hair_half * ((drawn ? wider : 0.0) - 1.0));
 }

@@ -17,8 +17,9 @@ typedef struct Growth {
     const WeftScene *scene;
     const Mesh *on;
     const Material *material;
-    Mesh *mesh;       /* has room for all fibres; NULL where only their roots are asked for */
-    uint32_t *roots;  /* the triangles that fibres stand on, one after the other, or NULL */
+    Mesh *mesh;      /* has room for all fibres; NULL where only their roots are asked for */
+    uint32_t *roots; /* the triangles that fibres stand on, one after the other, or NULL */
+    const uint32_t *roots_end;
     uint64_t numbers; /* the stream of random numbers */
 } Growth;
 
@@ -154,7 +155,7 @@ static void grow_triangle(Growth *growth, uint32_t triangle) {
     for (uint32_t k = 0; k < count; k++) {
         Root root = draw_root(growth, growth->on->index + 3 * (size_t)triangle);
         if (draw(growth) >= material_opacity(growth->scene, growth->material, root.uv, root.color[3])) continue;
-        if (growth->roots) *growth->roots++ = triangle;
+        if (growth->roots < growth->roots_end) *growth->roots++ = triangle;
         if (growth->mesh) color_root(growth, &root);
         grow_fibre(growth, &root);
     }
@@ -203,7 +204,11 @@ static bool grow(const WeftScene *scene, int m, Mesh *out) {
 void hair_roots(const WeftScene *scene, int mesh, uint32_t *roots) {
     const int m = scene->hairs[mesh - scene_own_meshes(scene)].mesh;
     const Mesh *on = &scene->meshes[m];
-    Growth growth = {.scene = scene, .on = on, .material = &scene->materials[on->material], .roots = roots};
+    Growth growth = {.scene = scene,
+                     .on = on,
+                     .material = &scene->materials[on->material],
+                     .roots = roots,
+                     .roots_end = roots + scene->meshes[mesh].vertex_count / HAIR_VERTICES};
     grow_triangles(&growth, m);
 }
 
