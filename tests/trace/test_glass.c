@@ -164,6 +164,164 @@ static void white_glass_vanishes(void **state) {
     }
 }
 
+/* Half metal, half glass, and white: nothing is lost but what facets lose of the metal. */
+static void partly_metal_glass_makes_no_light(void **state) {
+    (void)state;
+    for (int solid = 0; solid < 2; solid++) {
+        WeftScene *scene = test_scene();
+        test_environment(scene, 1.0f);
+        glass(scene, 0.1f, solid ? 1.0f : 0.0f)->inputs[INPUT_metallic].value[0] = 0.5f;
+        test_sphere(scene, vec3(0, 0, 0), 1.0f);
+        scene_bounds(scene);
+        const WeftRenderDesc desc = {
+            .width = 32, .height = 32, .camera = "0,0,3;0,0,0;40", .max_depth = 400, .sampling = WEFT_SAMPLING_LOBE};
+        const double mean = mean_of(scene, desc, 256);
+        print_message("white glass, half metal, %s: 1 %+.1e\n", solid ? "solid" : "thin", mean - 1.0);
+        assert_true(fabs(mean - 1.0) < 3e-3);
+        weft_scene_free(scene);
+    }
+}
+
+/* A metalness of 1 times a texture of 0 is no metal. */
+static void texture_without_metal_is_glass(void **state) {
+    (void)state;
+    for (int solid = 0; solid < 2; solid++) {
+        double seen[2];
+        for (int textured = 0; textured < 2; textured++) {
+            WeftScene *scene = test_scene();
+            test_environment(scene, 1.0f);
+            Material *m = glass(scene, 0.1f, solid ? 1.0f : 0.0f);
+            test_color(m, INPUT_base_color, 0.8f);
+            test_color(m, INPUT_attenuation_color, 0.3f);
+            m->inputs[INPUT_attenuation_distance].value[0] = 1.0f;
+            if (textured) {
+                WeftImage black;
+                assert_int_equal(weft_image_create(2, 2, 1, WEFT_PIXEL_U8, &black, NULL), WEFT_OK);
+                memset(black.pixels, 0, 4);
+                m->inputs[INPUT_metallic].value[0] = 1.0f;
+                m->inputs[INPUT_metallic].texture = weft_scene_add_texture(scene, &black, NULL);
+                assert_int_equal(m->inputs[INPUT_metallic].texture, 1);
+            }
+            test_sphere(scene, vec3(0, 0, 0), 1.0f);
+            scene_bounds(scene);
+            const WeftRenderDesc desc = {.width = 24, .height = 24, .camera = "0,0,3;0,0,0;40", .max_depth = 64};
+            seen[textured] = mean_of(scene, desc, 64);
+            weft_scene_free(scene);
+        }
+        print_message("%s glass, %.4f; with a texture of no metal, %.4f\n", solid ? "solid" : "thin", seen[0], seen[1]);
+        assert_true(seen[0] < 0.999 && fabs(seen[1] - seen[0]) < 2e-3);
+    }
+}
+
+/* Holes of a solid do not put the camera inside: how far away it is has no influence. */
+static void partly_transparent_solid_is_the_same_from_afar(void **state) {
+    (void)state;
+    double seen[2];
+    for (int far = 0; far < 2; far++) {
+        WeftScene *scene = test_scene();
+        test_environment(scene, 1.0f);
+        Material *m = glass(scene, 0.1f, 1.0f);
+        m->alpha_mode = WEFT_ALPHA_BLEND;
+        m->inputs[INPUT_opacity].value[0] = 0.5f;
+        test_color(m, INPUT_attenuation_color, 0.9f);
+        m->inputs[INPUT_attenuation_distance].value[0] = 1.0f;
+        test_sphere(scene, vec3(0, 0, 0), 1.0f);
+        scene_bounds(scene);
+        const WeftRenderDesc desc = {
+            .width = 24, .height = 24, .camera = far ? "0,0,100;0,0,0;1" : "0,0,10;0,0,0;10.0", .max_depth = 32};
+        seen[far] = mean_of(scene, desc, 128);
+        weft_scene_free(scene);
+    }
+    print_message("a solid with holes, from 10 m: %.4f, from 100 m: %.4f\n", seen[0], seen[1]);
+    assert_true(fabs(seen[1] - seen[0]) < 5e-3);
+}
+
+/* From the middle of a ball of radius 1 that reflects nothing straight ahead, what is left of a metre. */
+static void camera_inside_a_solid_sees_through_it(void **state) {
+    (void)state;
+    for (int holes = 0; holes < 2; holes++) {
+        WeftScene *scene = test_scene();
+        test_environment(scene, 1.0f);
+        Material *m = glass(scene, 0.0f, 1.0f);
+        m->alpha_mode = holes ? WEFT_ALPHA_BLEND : WEFT_ALPHA_OPAQUE;
+        m->inputs[INPUT_opacity].value[0] = 0.999f;
+        m->inputs[INPUT_specular].value[0] = 0.0f;
+        test_color(m, INPUT_attenuation_color, 0.5f);
+        m->inputs[INPUT_attenuation_distance].value[0] = 1.0f;
+        test_sphere(scene, vec3(0, 0, 0), 1.0f);
+        scene_bounds(scene);
+        const WeftRenderDesc desc = {.width = 8, .height = 8, .camera = "0,0,0;0,0,-1;30"};
+        const double mean = mean_of(scene, desc, 64);
+        print_message("from within, %.4f\n", mean);
+        assert_true(fabs(mean - 0.5) < 4e-3);
+        weft_scene_free(scene);
+    }
+}
+
+/* Thin and solid glass count as reflection where the sky has factors of its own. */
+static void sky_counts_as_reflection_through_glass(void **state) {
+    (void)state;
+    for (int solid = 0; solid < 2; solid++) {
+        WeftScene *scene = test_scene();
+        test_environment(scene, 1.0f);
+        scene->environment.reflection = 0.5f;
+        scene->environment.ambient = 0.25f;
+        glass(scene, 0.1f, solid ? 1.0f : 0.0f);
+        test_quad(scene, vec3(-9, -9, 0.5f), vec3(18, 0, 0), vec3(0, 18, 0));
+        if (solid) test_quad(scene, vec3(-9, -9, -0.5f), vec3(0, 18, 0), vec3(18, 0, 0));
+        scene_bounds(scene);
+        const WeftRenderDesc desc = {.width = 8, .height = 8, .camera = "0,0,4;0,0,0;10", .max_depth = 64};
+        const double mean = mean_of(scene, desc, 256);
+        print_message("%s glass under half a sky: %.4f\n", solid ? "solid" : "thin", mean);
+        assert_true(fabs(mean - 0.5) < 3e-3);
+        weft_scene_free(scene);
+    }
+}
+
+/* What lies on a solid, or beside the glass in it, takes light and makes none: metal, coat, dust, a stretch, light that goes
+ * through the diffuse lobe, a texture of transmission, and one solid in another. */
+static void no_solid_makes_light(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        InputId input;
+        float value;
+    } cases[] = {{"metal", INPUT_metallic, 0.3f},
+                 {"coat", INPUT_clearcoat, 1.0f},
+                 {"dust", INPUT_dust, 0.5f},
+                 {"stretch", INPUT_anisotropy, 0.8f},
+                 {"cloth", INPUT_diffuse_transmission, 1.0f},
+                 {"textured", INPUT_transmission, 1.0f},
+                 {"nested", INPUT_transmission, 1.0f}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        WeftScene *scene = test_scene();
+        test_environment(scene, 1.0f);
+        Material *m = glass(scene, 0.2f, 1.0f);
+        m->inputs[cases[k].input].value[0] = cases[k].value;
+        if (cases[k].input == INPUT_diffuse_transmission) m->inputs[INPUT_transmission].value[0] = 0.5f;
+        test_color(m, INPUT_diffuse_transmission_color, 1.0f);
+        if (strcmp(cases[k].name, "textured") == 0) {
+            WeftImage grey;
+            assert_int_equal(weft_image_create(2, 2, 1, WEFT_PIXEL_U8, &grey, NULL), WEFT_OK);
+            memset(grey.pixels, 128, 4);
+            m->inputs[INPUT_transmission].texture = weft_scene_add_texture(scene, &grey, NULL);
+            assert_int_equal(m->inputs[INPUT_transmission].texture, 1);
+        }
+        test_sphere(scene, vec3(0, 0, 0), 1.0f);
+        if (strcmp(cases[k].name, "nested") == 0) {
+            glass(scene, 0.2f, 1.0f)->inputs[INPUT_ior].value[0] = 1.3f;
+            test_sphere(scene, vec3(0, 0, 0), 0.5f);
+        }
+        scene_bounds(scene);
+        const WeftRenderDesc desc = {
+            .width = 24, .height = 24, .camera = "0,0,3;0,0,0;40", .max_depth = 200, .sampling = WEFT_SAMPLING_LOBE};
+        const double mean = mean_of(scene, desc, 64);
+        print_message("a white solid, %s: %.4f\n", cases[k].name, mean);
+        if (!(mean < 1.003 && mean > 0.6)) fail_msg("%s: %g", cases[k].name, mean);
+        weft_scene_free(scene);
+    }
+}
+
 /* A cube that reflects nothing, a metre thick, of which .5 is left after half a metre. */
 static void inside_light_is_absorbed_by_beer(void **state) {
     (void)state;
@@ -212,6 +370,12 @@ int main(void) {
         cmocka_unit_test(smooth_glass_bends_light_by_snell),
         cmocka_unit_test(rough_glass_sends_on_what_it_should),
         cmocka_unit_test(white_glass_vanishes),
+        cmocka_unit_test(partly_metal_glass_makes_no_light),
+        cmocka_unit_test(texture_without_metal_is_glass),
+        cmocka_unit_test(partly_transparent_solid_is_the_same_from_afar),
+        cmocka_unit_test(camera_inside_a_solid_sees_through_it),
+        cmocka_unit_test(sky_counts_as_reflection_through_glass),
+        cmocka_unit_test(no_solid_makes_light),
         cmocka_unit_test(inside_light_is_absorbed_by_beer),
         cmocka_unit_test(a_ball_in_glass_is_seen_larger),
     };

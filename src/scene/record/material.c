@@ -77,10 +77,6 @@ int hair_find(const char *name) {
     return -1;
 }
 
-bool material_is_solid(const Material *material) {
-    return material->inputs[INPUT_transmission].value[0] > 0.0f && material->inputs[INPUT_thickness].value[0] > 0.0f;
-}
-
 Material material_default(void) {
     Material material = {.alpha_cutoff = 0.5f};
     for (int k = 0; k < WEFT_HAIR_NUMBERS; k++) material.hair[k] = hair_infos[k].initial;
@@ -211,12 +207,28 @@ Surface material_plain(const Material *material) {
 #define PLAIN_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                            \
     s.name = plain_##kind(&material->inputs[INPUT_##name]);
     SURFACE_INPUTS(PLAIN_INPUT)
+    if (material->cloth) s.transmission = 0.0f; /* threads are no glass */
     return s;
 }
 
 Surface surface_default(void) {
     const Material material = material_default();
     return material_plain(&material);
+}
+
+bool material_has_glass(const Material *material) {
+    Surface s = material_plain(material);
+    const Choices choices = material_choices(material);
+    Stack stack;
+    if (!(s.transmission > 0.0f)) return false;
+    if (material->inputs[INPUT_metallic].texture) s.metallic = 0.0f;
+    stack_make(&stack, &s, &choices, (TableRef){.kind = TABLE_NONE});
+    return stack.glass > 0.0f;
+}
+
+bool material_is_solid(const Material *material) {
+    return material->inputs[INPUT_thickness].value[0] > 0.0f && !material->cloth && !material->measured &&
+           material_has_glass(material);
 }
 
 void material_textures(const WeftScene *scene, const Material *material, float uv[2][2], const float color[4],

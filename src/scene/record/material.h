@@ -31,9 +31,6 @@ bool input_same_texels(const Input *a, const Input *b);
  * automatic. */
 Material material_default(void);
 
-/* Returns true if the material is of solid glass, whose surface has two sides whether it is double-sided or not. */
-bool material_is_solid(const Material *material);
-
 /* Sets the colour of an input, linear. */
 void material_set_color(Material *material, InputId input, float r, float g, float b);
 

@@ -199,6 +199,8 @@ static void set_context(WeftRender *render) {
                              .places = d->places || d->mattes,
                              .slots = d->slots != 0,
                              .forward = {view->forward.x, view->forward.y, view->forward.z}};
+    if (context->solids)
+        context->eye_inside = path_eye_inside(context, scene_shaded_materials(render->scene), view->eye);
     context->pixel_width[view->orthographic ? 0 : 1] = 2.0f * sqrtf(vec3_dot(view->up, view->up)) / (float)d->height;
 }
 

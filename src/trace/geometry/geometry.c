@@ -15,7 +15,7 @@ struct Geometry {
     const WeftScene *scene;
     RTCDevice device;
     RTCScene accel;
-    unsigned char *checks; /* by mesh, see checks_of */
+    unsigned char *checks; /* by mesh, see mesh_checks */
     int meshes, threads;
     unsigned shape_version; /* of the scene then */
     atomic_int error;       /* the first RTCError, which may come from Embree's own threads */
@@ -46,12 +46,20 @@ static Hit from_embree(const struct RTCHit *h, float t) {
 }
 
 /* The data of a material that decide, beside the triangle, if a ray hits. */
-enum { CHECK_SIDE = 1, CHECK_OPACITY = 2 };
-static unsigned char checks_of(const WeftScene *scene, int mesh) {
+enum { CHECK_SIDE = 1, CHECK_OPACITY = 2, IS_SOLID = 4 };
+static int checks_of(const Material *material, bool solid) {
+    const int side = material->double_sided || solid ? 0 : CHECK_SIDE;
+    return side + (material->alpha_mode != WEFT_ALPHA_OPAQUE ? CHECK_OPACITY : 0) + (solid ? IS_SOLID : 0);
+}
+
+static unsigned char mesh_checks(const WeftScene *scene, int mesh) {
     const Material *material = &scene->materials[scene->meshes[mesh].material];
-    int checks = material->double_sided || material_is_solid(material) ? 0 : CHECK_SIDE;
-    if (material->alpha_mode != WEFT_ALPHA_OPAQUE) checks |= CHECK_OPACITY;
-    return (unsigned char)checks;
+    return (unsigned char)checks_of(material, material_is_solid(material));
+}
+
+/* Returns true if hits of a mesh may not count. */
+static bool is_checked(const Geometry *geometry, uint32_t mesh) {
+    return (geometry->checks[mesh] & (CHECK_SIDE + CHECK_OPACITY)) != 0;
 }
 
 /* Returns true if a hit counts: the surface has that side, and is not transparent there. Partial opacity is decided by
@@ -59,12 +67,13 @@ static unsigned char checks_of(const WeftScene *scene, int mesh) {
 static bool hit_counts(const Geometry *geometry, const Hit *hit, Vec3 direction, uint32_t key, bool past_lights) {
     const WeftScene *scene = geometry->scene;
     if (past_lights && hit->mesh >= (uint32_t)scene_light_meshes(scene)) return false;
-    int checks = checks_of(scene, (int)hit->mesh);
+    const Material *material = &scene->materials[scene->meshes[hit->mesh].material];
+    const int checks = checks_of(material, (geometry->checks[hit->mesh] & IS_SOLID) != 0);
     if (checks & CHECK_SIDE && vec3_dot(hit->facing, direction) > 0.0f) return false;
     if (!(checks & CHECK_OPACITY)) return true;
     const Mesh *mesh = &scene->meshes[hit->mesh];
     Attributes at = geometry_attributes(mesh, hit);
-    float opacity = material_opacity(scene, &scene->materials[mesh->material], at.uv, at.color[3]);
+    float opacity = material_opacity(scene, material, at.uv, at.color[3]);
     return unit_float(hash_combine(hash_combine(key, hit->mesh), hit->triangle)) < opacity;
 }
 
@@ -110,7 +119,8 @@ static void filter(const struct RTCFilterFunctionNArguments *a) {
 
 bool geometry_serves(const Geometry *geometry) {
     bool serves = geometry->shape_version == geometry->scene->shape_version;
-    for (int k = 0; k < geometry->meshes && serves; k++) serves = geometry->checks[k] == checks_of(geometry->scene, k);
+    for (int k = 0; k < geometry->meshes && serves; k++)
+        serves = geometry->checks[k] == mesh_checks(geometry->scene, k);
     return serves;
 }
 
@@ -122,7 +132,7 @@ static bool attach(Geometry *geometry, uint32_t id) {
                                mesh->vertex_count);
     rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->index, 0, 3 * sizeof(uint32_t),
                                mesh->triangle_count);
-    if (geometry->checks[id]) rtcSetGeometryOccludedFilterFunction(g, filter);
+    if (is_checked(geometry, id)) rtcSetGeometryOccludedFilterFunction(g, filter);
     rtcCommitGeometry(g);
     rtcAttachGeometryByID(geometry->accel, g, id);
     rtcReleaseGeometry(g);
@@ -191,7 +201,7 @@ WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geom
         free(geometry);
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
-    for (int k = 0; k < meshes; k++) geometry->checks[k] = checks_of(scene, k);
+    for (int k = 0; k < meshes; k++) geometry->checks[k] = mesh_checks(scene, k);
     bool starved;
     if (guarded(build, geometry, &starved) && geometry->built) {
         *out = geometry;
@@ -228,6 +238,11 @@ bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit) {
     if (hit_counts(geometry, hit, ray.direction, ray.key, ray.past_lights)) return true;
     query.context.filter = filter;
     return intersect(geometry, &ray, &query, hit);
+}
+
+bool geometry_triangle(const Geometry *geometry, Ray ray, Hit *hit) {
+    Query query = query_of(geometry, ray.past_lights);
+    return is_valid(&ray) && intersect(geometry, &ray, &query, hit);
 }
 
 bool geometry_occluded(const Geometry *geometry, Ray ray) {
@@ -300,7 +315,7 @@ static void put_hits(const Geometry *geometry, const RayRows *rays, const struct
     for (int k = 0; k < GEOMETRY_PACKET && k < left; k++) {
         Hit hit = {t[k], h->geomID[k], h->primID[k], h->u[k], h->v[k], {h->Ng_x[k], h->Ng_y[k], h->Ng_z[k]}};
         put_hit(hits, first + k, &hit);
-        if (hit.mesh == GEOMETRY_NOTHING || (!geometry->checks[hit.mesh] && !rays->past_lights)) continue;
+        if (hit.mesh == GEOMETRY_NOTHING || (!is_checked(geometry, hit.mesh) && !rays->past_lights)) continue;
         Ray ray = ray_at(rays, first + k);
         if (hit_counts(geometry, &hit, ray.direction, ray.key, ray.past_lights)) continue;
         if (!geometry_hit(geometry, ray, &hit)) hit.mesh = GEOMETRY_NOTHING;

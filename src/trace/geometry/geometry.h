@@ -32,6 +32,9 @@ typedef struct Hit {
  * through transparent points. */
 bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit);
 
+/* Finds the nearest triangle, whatever its side and opacity. */
+bool geometry_triangle(const Geometry *geometry, Ray ray, Hit *hit);
+
 /* Returns true if anything lies on the ray between near and far. */
 bool geometry_occluded(const Geometry *geometry, Ray ray);
 

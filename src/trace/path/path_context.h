@@ -46,12 +46,17 @@ typedef struct PathContext {
     bool stages;          /* stages are timed */
     bool sky_in_parts;    /* the environment's factors `ambient` and `reflection` are not both 1 */
     bool solids;          /* a material is of solid glass */
+    int eye_inside;       /* the solid in which the camera is, by its material, from 1; 0: none */
     bool first_hits;      /* first hits are recorded */
     bool places;          /* where they are, and on which meshes, too */
     bool slots;           /* light is divided by the slots that reflect it there */
     float forward[3];     /* the camera's axis, along which their depth is measured */
     float pixel_width[2]; /* at the eye, and how much wider it becomes with depth */
 } PathContext;
+
+/* Returns in which solid a camera is at `eye`, as eye_inside has it: a ray from there first meets that one from within
+ * (inside.c). materials: how many the context has. */
+int path_eye_inside(const PathContext *context, int materials, Vec3 eye);
 
 /* Which random numbers a path takes (sampler.h). */
 typedef struct PathKey {

@@ -22,8 +22,7 @@ static bool is_without_coming(const PathMaterial *prepared) {
 
 /* Takes solid glass out of the stack. The thickness of a solid is that of its mesh, and light is absorbed along paths. */
 static void prepare_solid(PathMaterial *prepared, const Surface *surface) {
-    prepared->solid = material_is_solid(&prepared->material) && !prepared->cloth && !prepared->measured &&
-                      prepared->stack.glass > 0.0f;
+    prepared->solid = material_is_solid(&prepared->material);
     if (!prepared->solid) return;
     prepared->absorption = solid_absorption(surface);
     prepared->untextured.attenuation_distance = 0.0f;
@@ -51,12 +50,13 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
         prepared->leveled[of->texcoord] |= of->texture && scene->textures[of->texture - 1].levels;
     }
     prepared->cloth = scene_cloth_of(scene, material);
+    if (prepared->cloth) prepared->material.inputs[INPUT_transmission].texture = 0; /* threads are no glass */
     prepared->textured |= prepared->cloth != NULL;
     prepared->texcoords[0] |= prepared->cloth != NULL;
     prepared->sheen_e = sheen_e;
     Surface surface = frame_surface(prepared->untextured);
     stack_make(&prepared->stack, &surface, &prepared->choices, prepared->sheen_e);
-    prepared->transmits = prepared->stack.transmission > 0.0f || prepared->stack.glass > 0.0f;
+    prepared->transmits = prepared->stack.transmission > 0.0f || material_has_glass(material);
     prepared->measured = material->measured ? scene->measured[material->measured - 1] : NULL;
     if (prepared->cloth) {
         const Lobe yarn = lobe_default(LOBE_YARN);
