@@ -404,6 +404,44 @@ static void settings_without_effect_on_a_weave_are_told(void **state) {
     ran_free(&ran);
 }
 
+/* Renders a ball of a material file with an engine. said: a warning of its threads is due. */
+static WeftImage woven_ball(const char *file, const char *engine, bool said) {
+    WeftImage image;
+    Ran ran = RUN("render", "builtin:ball", "--material", file, "--engine", engine, "--width", "24", "--height", "24",
+                  "--spp", "4", "-o", "woven.npy");
+    if (ran.code != 0 || (strstr(ran.err, "threads are no glass") != NULL) != said) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    assert_int_equal(weft_image_read("woven.npy", &image, NULL, NULL), WEFT_OK);
+    return image;
+}
+
+/* A woven material with a transmission is drawn as one without, and weft says so. */
+static void woven_is_no_glass(const char *engine) {
+    static const char glass[] =
+        "{\"weave\": {\"draft\": \"plain\"}, \"diffuse_transmission\": 0.5, \"transmission\": 1}",
+                      plain[] = "{\"weave\": {\"draft\": \"plain\"}, \"diffuse_transmission\": 0.5}";
+    file_make("glass.json", glass, sizeof glass - 1);
+    file_make("plain.json", plain, sizeof plain - 1);
+    WeftImage a = woven_ball("ball=plain.json", engine, false), b = woven_ball("ball=glass.json", engine, true);
+    assert_true(satins_differ(a, b) < 1e-5);
+    weft_image_free(&a);
+    weft_image_free(&b);
+}
+
+static void woven_is_no_glass_in_the_path_tracer(void **state) {
+    (void)state;
+    woven_is_no_glass("trace");
+}
+
+static void woven_is_no_glass_in_the_raster_engine(void **state) {
+    (void)state;
+    Ran ran = RUN("render", "builtin:ball", "--engine", "raster", "--width", "8", "--height", "8", "-o", "probe.npy");
+    const bool gl = ran.code == 0;
+    ran_free(&ran);
+    if (!gl) skip();
+    woven_is_no_glass("raster");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(cloth_is_the_same_by_every_way),
                                        cmocka_unit_test(threads_have_their_size_on_any_mesh),
@@ -413,6 +451,8 @@ int main(void) {
                                        cmocka_unit_test(denim_is_as_blue_as_its_warp),
                                        cmocka_unit_test(colours_and_yarns_have_two_spellings),
                                        cmocka_unit_test(settings_without_effect_on_a_weave_are_told),
+                                       cmocka_unit_test(woven_is_no_glass_in_the_path_tracer),
+                                       cmocka_unit_test(woven_is_no_glass_in_the_raster_engine),
                                        cmocka_unit_test(wrong_keys_are_refused_in_one_line)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -57,9 +57,16 @@ static void add_map(GlMaterial *self, const GlTextures *textures, const Material
     uniforms->inputs[k][3] = 1.0f;
 }
 
+/* Returns an input as it is drawn: threads are no glass. */
+static Input input_drawn(const Material *material, int k) {
+    Input input = material->inputs[k];
+    if (k == INPUT_transmission && material->cloth) input = (Input){.channel = input.channel};
+    return input;
+}
+
 static void add_input(GlMaterial *self, const GlTextures *textures, const Material *material, int k,
                       Uniforms *uniforms) {
-    const Input *input = &material->inputs[k];
+    const Input drawn = input_drawn(material, k), *input = &drawn;
     WeftInputKind kind = input_infos[k].kind;
     self->key.inputs[k].state = (int16_t)state_of(input, kind);
     self->key.inputs[k].like = -1;

@@ -57,6 +57,11 @@ void cloth_check(const WeftScene *scene, int material, const WeftLog *log) {
     int meshes = 0;
     for (int m = 0; m < scene_own_meshes(scene); m++) meshes += scene->meshes[m].material == material;
     const double metres = cloth_uv_metres(scene, material, 0, &uneven);
+    if (scene->materials[material].inputs[INPUT_transmission].value[0] > 0.0f)
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name,
+             "its transmission: threads are no glass; light comes through them by diffuse_transmission, and through "
+             "gaps "
+             "between them where alpha_mode is not opaque");
     if (meshes && !(metres > 0.0))
         warn(
             log, WEFT_MESSAGE_PLAUSIBLE, name,

@@ -13,7 +13,8 @@ double cloth_uv_metres(const WeftScene *scene, int material, int set, double *un
  * automatic. */
 void cloth_fit(const WeftScene *scene, int material, WeftCloth *cloth);
 
-/* Warns where a woven material has meshes without texture coordinates, or such that threads differ in size. */
+/* Warns where a woven material has a transmission, which threads have not, and where its meshes have no texture
+ * coordinates, or such that threads differ in size. */
 void cloth_check(const WeftScene *scene, int material, const WeftLog *log);
 
 /* The standard deviation of cloth_uv_metres from which on threads differ visibly. */
