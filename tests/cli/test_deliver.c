@@ -230,6 +230,43 @@ static void asset_keeps_all_that_the_target_reads(void **state) {
     folder_clear("asset");
 }
 
+static bool tells(const json_t *lines, const char *text) {
+    size_t k;
+    json_t *line;
+    json_array_foreach(lines, k, line) {
+        if (strstr(json_string_value(line), text)) return true;
+    }
+    return false;
+}
+
+/* What goes through glass is no reflection: an extension less is no reason to blacken its base colour. */
+static void glass_keeps_its_color(void **state) {
+    (void)state;
+    static const char *const targets[] = {"khronos", "three", "filament", "core"};
+    asset_make("\"KHR_materials_transmission\":{\"transmissionFactor\":1},\"KHR_materials_ior\":{\"ior\":1.8},"
+               "\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.7}");
+    delivered(LIST("deliver", "asset.gltf", "--to", "khronos,three,filament,core", "-o", "glass", "--width", "32",
+                   "--spp", "1"));
+    json_t *summary = json_of("glass/asset.json");
+    for (size_t k = 0; k < sizeof targets / sizeof *targets; k++) {
+        char path[64];
+        snprintf(path, sizeof path, "glass/asset-%s.glb", targets[k]);
+        json_t *root = glb_json(path);
+        const json_t *material = json_array_get(json_object_get(root, "materials"), 0);
+        const json_t *base = json_object_get(json_object_get(material, "pbrMetallicRoughness"), "baseColorFactor");
+        const double red = json_number_value(json_array_get(base, 0)),
+                     green = json_number_value(json_array_get(base, 1));
+        if (fabs(red - 0.5) > 1e-5 || fabs(green - 0.1) > 1e-5) fail_msg("%s: %g %g", targets[k], red, green);
+        assert_int_equal(part(material, "KHR_materials_transmission") != NULL, k < 3);
+        const json_t *target = target_of(summary, targets[k]), *lost = json_object_get(target, "lost");
+        if (tells(lost, "as if it were opaque") != (k > 0)) fail_msg("%s: %s", targets[k], json_dumps(lost, 0));
+        assert_true(number(json_array_get(json_object_get(target, "materials"), 0), "matched") < 0.3);
+        json_decref(root);
+    }
+    json_decref(summary);
+    folder_clear("glass");
+}
+
 static void unlit_material_keeps_its_color(void **state) {
     (void)state;
     char text[1024];
@@ -466,11 +503,17 @@ static void interrupted_delivery_leaves_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draft_is_delivered_to_every_target),    cmocka_unit_test(material_is_delivered_near_the_truth),
-        cmocka_unit_test(asset_keeps_all_that_the_target_reads), cmocka_unit_test(unlit_material_keeps_its_color),
-        cmocka_unit_test(cloth_is_fitted_for_each_target),       cmocka_unit_test(levels_are_for_those_who_read_them),
-        cmocka_unit_test(fine_normal_maps_get_levels),           cmocka_unit_test(woven_asset_is_baked),
-        cmocka_unit_test(senseless_delivery_is_refused),         cmocka_unit_test(interrupted_delivery_leaves_nothing),
+        cmocka_unit_test(draft_is_delivered_to_every_target),
+        cmocka_unit_test(material_is_delivered_near_the_truth),
+        cmocka_unit_test(asset_keeps_all_that_the_target_reads),
+        cmocka_unit_test(unlit_material_keeps_its_color),
+        cmocka_unit_test(glass_keeps_its_color),
+        cmocka_unit_test(cloth_is_fitted_for_each_target),
+        cmocka_unit_test(levels_are_for_those_who_read_them),
+        cmocka_unit_test(fine_normal_maps_get_levels),
+        cmocka_unit_test(woven_asset_is_baked),
+        cmocka_unit_test(senseless_delivery_is_refused),
+        cmocka_unit_test(interrupted_delivery_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -14,12 +14,14 @@
 #include "measure/match/match.h"
 #include "measure/match/match_factor.h"
 #include "measure/match/viewer_reads.h"
+#include "scene/record/material_at.h"
 #include "shading/material/choice.h"
 
 /* A material on its way. */
 typedef struct Parcel {
     bool limited;         /* what was taken out of it changes its light */
     bool open[FACTORS];   /* the file as written has a place for the factor */
+    bool glass;           /* the original is of glass, whose base colour is that of the light that goes through */
     WeftMaterial source;  /* the original, with the means of its textures */
     WeftMaterial written; /* the same of the file as written, under the profile of the target */
     double means[FACTORS][3];
@@ -149,9 +151,23 @@ static double even_sky(const WeftReflection *reflection) {
     return (sky[0] + sky[1] + sky[2]) / 3.0;
 }
 
-/* Locks every input but the factors that can be written. */
+/* Makes glass opaque for the search and for the judgement where the target's profile shows none, since reflections would
+ * then be those of two things. */
+static void glass_set_aside(Delivering *self) {
+    for (int k = 0; k < self->count; k++) {
+        Parcel *parcel = &self->parcels[k];
+        parcel->glass = material_has_glass(&parcel->source);
+        if (!parcel->glass || material_has_glass(&parcel->written)) continue;
+        parcel->source.inputs[INPUT_transmission].value[0] = 0.0f;
+        parcel->written.inputs[INPUT_transmission].value[0] = 0.0f;
+        self->losses.opaque_glass++;
+    }
+}
+
+/* Locks every input but the factors that can be written. Of glass the base colour stays: its reflection does not have it. */
 static void lock_rest(const Parcel *parcel, int locked[WEFT_INPUTS_MAX]) {
     factors_unlock(locked);
+    locked[INPUT_base_color] = parcel->glass;
     for (int f = 0; f < FACTORS; f++) locked[match_factors[f]] |= !parcel->open[f];
 }
 
@@ -205,7 +221,8 @@ static WeftResult parcel_match(Delivering *self, int k, ItemProgress *item_progr
     if (result == WEFT_OK && due)
         result = match_material(parcel->original, self->metric, locked, item_progress, &parcel->written,
                                 &delivered->found, error);
-    if (result == WEFT_OK && due && parcel->limited && is_bare(self)) result = parcel_level(parcel, error);
+    const bool levels = parcel->limited && is_bare(self) && !parcel->glass;
+    if (result == WEFT_OK && due && levels) result = parcel_level(parcel, error);
     parcel_clip(parcel);
     if (result == WEFT_OK) result = weft_reflection_create(&plain, &copy, error);
     if (result == WEFT_OK) result = weft_reflection_create(&parcel->written, &now, error);
@@ -337,6 +354,7 @@ WeftResult weft_deliver(const char *path, const char *out, int from, int target,
     WeftResult result = source_read(&self, log, error);
     if (result == WEFT_OK) result = file_make(&self, error);
     if (result == WEFT_OK) result = written_read(&self, error);
+    if (result == WEFT_OK) glass_set_aside(&self);
     if (result == WEFT_OK) result = match_all(&self, error);
     if (result == WEFT_OK) result = file_finish(&self, &own, error);
     for (int k = 0; k < self.count && self.parcels; k++) weft_reflection_free(self.parcels[k].original);

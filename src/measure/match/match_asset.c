@@ -227,6 +227,8 @@ static WeftResult plan(AssetSearch *self, WeftError *error) {
         means_of(self, &match->copied, material->means);
         to_average(self, &average);
         place_means(self->scene, &match->copied, &average, &curves);
+        average.inputs[INPUT_transmission].value[0] =
+            0.0f; /* a reflection knows no colour of glass: as if it were opaque */
         weft_material_choose(&average, CHOICE_profile, self->from);
         material->search = search_for(self, &average, &curves);
     }

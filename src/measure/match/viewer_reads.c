@@ -155,11 +155,15 @@ void viewer_uses(Rewrite *rewrite, int target) {
 
 char *viewer_losses_text(const ViewerLosses *losses, int materials) {
     enum { LINE = 200 };
-    char *text = calloc(EXTENSIONS + 1, LINE);
+    char *text = calloc(EXTENSIONS + 2, LINE);
     size_t used = 0;
     for (int k = 0; text && k < EXTENSIONS; k++)
         if (losses->materials[k])
             used += (size_t)snprintf(text + used, LINE, "%s: %s (%d of %d materials)\n", extensions[k].name,
                                      extensions[k].lost, losses->materials[k], materials);
+    if (text && losses->opaque_glass)
+        snprintf(text + used, LINE,
+                 "glass: matched and judged as if it were opaque, in its own base colour (%d of %d materials)\n",
+                 losses->opaque_glass, materials);
     return text;
 }

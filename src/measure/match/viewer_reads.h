@@ -12,6 +12,7 @@ enum { VIEWER_EXTENSIONS = 24 };
 /* The extensions that were taken out of the materials of a file. */
 typedef struct ViewerLosses {
     int materials[VIEWER_EXTENSIONS]; /* how many showed each extension that was taken out */
+    int opaque_glass;                 /* materials of glass that were matched and judged as if they were opaque */
 } ViewerLosses;
 
 /* Takes out of a material of the rewritten file the extensions that target `target` does not read, and extras.weft.
