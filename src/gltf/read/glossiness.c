@@ -67,6 +67,7 @@ static int roughness_texture(Asset *asset, const Input *gloss) {
     Texture *made = &scene->textures[scene->texture_count];
     *made = *from;
     made->path = NULL;
+    made->levels = NULL; /* of glossiness */
     made->image = scene->image_count++;
     return ++scene->texture_count;
 }
