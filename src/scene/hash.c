@@ -37,7 +37,10 @@ static uint64_t hash_mesh(uint64_t hash, const Mesh *mesh) {
 static uint64_t hash_texture(uint64_t hash, const WeftScene *scene, const Texture *texture) {
     const int form[] = {texture->image, (int)texture->wrap_u, (int)texture->wrap_v, texture->nearest,
                         (int)texture->inverted};
-    return hash_image(cache_hash(hash, form, sizeof form), &scene->images[texture->image]);
+    hash = hash_image(cache_hash(hash, form, sizeof form), &scene->images[texture->image]);
+    const TextureLevels *levels = texture->levels;
+    for (int k = 0; levels && k < levels->count; k++) hash = hash_image(hash, &levels->images[k]);
+    return hash;
 }
 
 /* Hashes a cloth by its draft, thread by thread, its yarns and its figures. */
