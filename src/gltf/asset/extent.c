@@ -63,13 +63,16 @@ static size_t tga_bytes(Span image) {
     return (p[12] | (size_t)p[13] << 8) * (p[14] | (size_t)p[15] << 8) * 4;
 }
 
-/* Counts four bytes a pixel of bytes and blocks, sixteen of words and floats, whose formats have numbers from 70 on. */
+/* Counts four bytes a pixel of bytes and blocks, sixteen of words and floats, whose formats have numbers from 70 on. Levels
+ * of its own add a third, and the file, which is kept with them. */
 static size_t ktx2_bytes(Span image) {
-    enum { HEADER = 28, FIRST_WORD = 70 };
+    enum { HEADER = 44, FIRST_WORD = 70 };
     if (image.size < HEADER) return 0;
     const size_t format = (size_t)little_endian(image.data + 12, 4), width = (size_t)little_endian(image.data + 20, 4),
-                 height = (size_t)little_endian(image.data + 24, 4);
-    return width < 1 << 17 && height < 1 << 17 ? width * height * (format < FIRST_WORD ? 4 : 16) : 0;
+                 height = (size_t)little_endian(image.data + 24, 4), levels = (size_t)little_endian(image.data + 40, 4);
+    if (width >= 1 << 17 || height >= 1 << 17) return 0;
+    const size_t first = width * height * (format < FIRST_WORD ? 4 : 16);
+    return levels > 1 ? first + first / 3 + image.size : first;
 }
 
 /* Returns the most pixel bytes that the image readers accept for a file of this size. */
