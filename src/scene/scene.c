@@ -28,7 +28,10 @@ WeftScene *scene_create(const char *name) {
 
 void weft_scene_free(WeftScene *scene) {
     if (!scene) return;
-    for (int k = 0; k < scene->image_count; k++) weft_image_free(&scene->images[k]);
+    for (int k = 0; k < scene->image_count; k++) {
+        textures_put_levels(scene->textures, scene->texture_count, k, NULL);
+        weft_image_free(&scene->images[k]);
+    }
     for (int k = 0; k < scene->cloth_count; k++) weft_cloth_free(scene->cloths[k]);
     for (int k = 0; k < scene->measured_count; k++) scene_measured_free(scene->measured[k]);
     weft_image_free(&scene->environment.image);

@@ -111,11 +111,12 @@ void textures_read(Asset *asset) {
 typedef struct DecodeJob {
     Span bytes;
     unsigned char *owned;
-    const char *name;  /* named in messages */
-    const char *path;  /* NULL: no file of its own */
-    int image;         /* number of the image in the file */
-    bool spared;       /* each texture that has it has a plain picture beside it */
-    WeftResult result; /* of finding its bytes, then of decoding them */
+    TextureLevels *levels; /* owned until textures have them */
+    const char *name;      /* named in messages */
+    const char *path;      /* NULL: no file of its own */
+    int image;             /* number of the image in the file */
+    bool spared;           /* each texture that has it has a plain picture beside it */
+    WeftResult result;     /* of finding its bytes, then of decoding them */
     WeftError error;
 } DecodeJob;
 
@@ -159,8 +160,8 @@ static void decode(void *user, int place, int thread) {
     Listener listener = {jobs, job->image};
     const WeftLog log = {log_locked, &listener};
     if (atomic_load(&jobs->stopped) || job->result != WEFT_OK) return;
-    job->result = weft_image_read_memory(job->bytes.data, job->bytes.size, job->name, &jobs->asset->scene->images[item],
-                                         &log, &job->error);
+    job->result = levels_decode(job->bytes.data, job->bytes.size, job->name, &jobs->asset->scene->images[item],
+                                &job->levels, &log, &job->error);
     size_t decoded = atomic_fetch_add(&jobs->decoded, job->bytes.size) + job->bytes.size;
     if (thread == 0 && !asset_progress(jobs->asset, 0.5, 1.0, decoded, jobs->encoded))
         atomic_store(&jobs->stopped, true); /* the others finish what they have begun */
@@ -226,11 +227,8 @@ static void images_decode(Jobs *jobs, int first) {
 static void levels_take(Jobs *jobs) {
     WeftScene *scene = jobs->asset->scene;
     for (int i = 0; i < scene->image_count; i++) {
-        if (!scene->images[i].pixels) continue;
-        const Span bytes = jobs->items[i].bytes;
-        const TextureLevels *levels = levels_read(&scene->arena, bytes.data, bytes.size, &scene->images[i]);
-        for (int t = 0; t < scene->texture_count && levels; t++)
-            if (scene->textures[t].image == i) scene->textures[t].levels = levels;
+        textures_put_levels(scene->textures, scene->texture_count, i, jobs->items[i].levels);
+        jobs->items[i].levels = NULL;
     }
 }
 
@@ -391,7 +389,10 @@ void textures_resolve(Asset *asset) {
         if (asset->result == WEFT_OK) levels_take(&jobs);
         pthread_mutex_destroy(&jobs.log_lock);
     }
-    for (int i = 0; i < scene->image_count; i++) free(jobs.items[i].owned);
+    for (int i = 0; i < scene->image_count; i++) {
+        levels_free(jobs.items[i].levels);
+        free(jobs.items[i].owned);
+    }
     if (asset->result == WEFT_OK && !asset->examined) unread_drop(asset);
     files_free(&asset->image_files);
     glossiness_end(asset);

@@ -27,22 +27,21 @@ static bool is_cloth(const WeftScene *scene, int k) {
 /* Lengthens the scene's lists by those of the file and gives it the images. */
 static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
     int number[INPUT_COUNT], image[INPUT_COUNT];
-    const TextureLevels *levels[INPUT_COUNT] = {NULL};
-    for (int k = 0; k < file->image_count; k++) {
-        image[k] = -1;
-        levels[k] = levels_read_file(&scene->arena, file->paths[k], &file->images[k]);
-    }
+    for (int k = 0; k < file->image_count; k++) image[k] = -1;
     for (int k = 0; k < file->texture_count; k++) {
         Texture texture = file->textures[k];
         int from = texture.image;
         texture.path = file->paths[from] ? arena_text(&scene->arena, file->paths[from]) : NULL;
         texture.image = image[from];
-        texture.levels = levels[from];
         if (file->paths[from] && !texture.path) return false;
         number[k] =
             image[from] < 0 ? picture_add(scene, &file->images[from], texture) : texture_number_of(scene, texture);
         if (!number[k]) return false;
         image[from] = scene->textures[number[k] - 1].image;
+    }
+    for (int k = 0; k < file->image_count; k++) {
+        textures_put_levels(scene->textures, scene->texture_count, image[k], file->levels[k]);
+        file->levels[k] = NULL;
     }
     for (int k = 0; k < INPUT_COUNT; k++) {
         int *texture = &file->material.inputs[k].texture;

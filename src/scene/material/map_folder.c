@@ -22,9 +22,20 @@
 typedef struct MapPicture {
     char *path; /* owned */
     WeftImage image;
-    unsigned inverted; /* as in Texture */
-    int texture;       /* number, counted from 1, once it is taken over */
+    TextureLevels *levels; /* owned */
+    unsigned inverted;     /* as in Texture */
+    int texture;           /* number, counted from 1, once it is taken over */
 } MapPicture;
+
+static WeftResult picture_read(MapPicture *picture, const WeftLog *log, WeftError *error) {
+    return levels_read(picture->path, &picture->image, &picture->levels, log, error);
+}
+
+static void picture_free(MapPicture *picture) {
+    weft_image_free(&picture->image);
+    levels_free(picture->levels);
+    free(picture->path);
+}
 
 /* Returns the first texture of the image at a picture's path, inverted as it is, or -1. */
 static int find_path(const WeftScene *scene, const MapPicture *picture) {
@@ -47,21 +58,25 @@ static int find_plain(const WeftScene *scene, int image) {
 
 /* Gives a picture to the scene: in the place of what was read of that path before, if anything was. */
 static bool take_over(WeftScene *scene, MapPicture *picture) {
-    int before = find_path(scene, picture);
+    const int before = find_path(scene, picture);
     if (before < 0) {
         const char *path = arena_text(&scene->arena, picture->path);
         picture->texture =
             path ? picture_add(scene, &picture->image, (Texture){.path = path, .inverted = picture->inverted}) : 0;
-        return picture->texture != 0;
+        if (!picture->texture) return false;
+        textures_put_levels(scene->textures, scene->texture_count, scene->image_count - 1, picture->levels);
+    } else {
+        const int image = scene->textures[before].image, plain = find_plain(scene, image);
+        const Texture texture = {.image = image,
+                                 .path = scene->textures[before].path,
+                                 .version = scene->textures[before].version,
+                                 .inverted = picture->inverted};
+        picture->texture = plain < 0 ? texture_number_of(scene, texture) : plain + 1;
+        if (!picture->texture) return false;
+        picture_replace(scene, image, &picture->image, picture->levels, texture.path);
     }
-    int image = scene->textures[before].image, plain = find_plain(scene, image);
-    Texture texture = {.image = image,
-                       .path = scene->textures[before].path,
-                       .version = scene->textures[before].version,
-                       .inverted = picture->inverted};
-    picture->texture = plain < 0 ? texture_number_of(scene, texture) : plain + 1;
-    if (picture->texture) picture_replace(scene, image, &picture->image, texture.path);
-    return picture->texture != 0;
+    picture->levels = NULL;
+    return true;
 }
 
 static void put_on_input(Material *material, InputId id, int texture, int channel) {
@@ -115,14 +130,12 @@ WeftResult weft_scene_set_texture(WeftScene *scene, const char *text, const char
     if (!selected && error) *error = said;
     if (!selected) return said.result;
     MapPicture picture = {.path = strdup(path)};
-    result = picture.path ? weft_image_read(path, &picture.image, log, error)
-                          : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    result = picture.path ? picture_read(&picture, log, error) : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK && !take_over(scene, &picture)) result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene->material_count && result == WEFT_OK; k++)
         if (selected[k])
             put_on_input(&scene->materials[k], target.input, picture.texture, target.channel < 0 ? 0 : target.channel);
-    weft_image_free(&picture.image);
-    free(picture.path);
+    picture_free(&picture);
     return result == WEFT_OK ? materials_complete(scene, error) : result;
 }
 
@@ -151,10 +164,7 @@ typedef struct MapSet {
 } MapSet;
 
 static void free_map_set(MapSet *map_set) {
-    for (int k = 0; k < map_set->count; k++) {
-        weft_image_free(&map_set->pictures[k].image);
-        free(map_set->pictures[k].path);
-    }
+    for (int k = 0; k < map_set->count; k++) picture_free(&map_set->pictures[k]);
 }
 
 /* Lists the pictures of a folder in the order of their names. Returns their number. */
@@ -233,7 +243,7 @@ static WeftResult read_picture(const char *folder, const char *file, MapSet *map
     picture->path = malloc(size);
     if (!picture->path) return fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
     snprintf(picture->path, size, "%s%s%s", folder, slash ? "" : "/", file);
-    return weft_image_read(picture->path, &picture->image, log, error);
+    return picture_read(picture, log, error);
 }
 
 /* Inverts what a picture holds so that inputs take it: gloss, and green that points down. */
@@ -252,7 +262,7 @@ static void invert_picture(const MapFile *file, MapPicture *picture, const WeftL
         warn(log, WEFT_MESSAGE_GLTF_WARN_REPAIRED, picture->path,
              "its normals are those of a surface only if green points down, as in DirectX: turned up; with \"gl\" at "
              "the end of its name it stays");
-    picture_invert(&picture->image, picture->inverted);
+    picture_invert(&picture->image, &picture->levels, picture->inverted);
 }
 
 /* Takes the map of an input from a file, which is read at its first one. A picture without alpha has no map there. */

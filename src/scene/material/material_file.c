@@ -117,7 +117,8 @@ static int image_index(Reader *r, const char *file) {
             return k;
         }
     out->paths[out->image_count] = path; /* never full: at most one image an input */
-    WeftResult result = weft_image_read(path, &out->images[out->image_count], r->log, r->error);
+    WeftResult result =
+        levels_read(path, &out->images[out->image_count], &out->levels[out->image_count], r->log, r->error);
     if (r->result == WEFT_OK) r->result = result;
     return out->image_count++;
 }
@@ -397,6 +398,7 @@ WeftResult material_file_read(const void *data, size_t size, const char *name, c
 void material_file_free(MaterialFile *file) {
     for (int k = 0; k < INPUT_COUNT; k++) {
         weft_image_free(&file->images[k]);
+        levels_free(file->levels[k]);
         free(file->paths[k]);
     }
     weft_cloth_free(file->cloth);

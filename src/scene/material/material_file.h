@@ -10,8 +10,9 @@ typedef struct MaterialFile {
     bool keep[INPUT_COUNT];  /* to be left as the asset has it */
     bool alpha_named, sided_named;
     Texture textures[INPUT_COUNT];
-    WeftImage images[INPUT_COUNT]; /* owned */
-    char *paths[INPUT_COUNT];      /* owned; of images; NULL: an image that is none of a file */
+    WeftImage images[INPUT_COUNT];      /* owned */
+    TextureLevels *levels[INPUT_COUNT]; /* owned; of images; NULL: none */
+    char *paths[INPUT_COUNT];           /* owned; of images; NULL: an image that is none of a file */
     int texture_count, image_count;
     float span[INPUT_COUNT][2];     /* metres that the picture of an input spans; 0: as its transform says */
     float constant[INPUT_COUNT][3]; /* the value of an input with a texture where textures are not read */

@@ -32,7 +32,7 @@ int picture_add(WeftScene *scene, WeftImage *image, Texture like) {
     return number;
 }
 
-void picture_replace(WeftScene *scene, int image, WeftImage *fresh, const char *path) {
+void picture_replace(WeftScene *scene, int image, WeftImage *fresh, TextureLevels *levels, const char *path) {
     if (fresh->pixels != scene->images[image].pixels) weft_image_free(&scene->images[image]);
     scene->images[image] = *fresh;
     *fresh = (WeftImage){0};
@@ -40,13 +40,16 @@ void picture_replace(WeftScene *scene, int image, WeftImage *fresh, const char *
         if (scene->textures[k].image != image) continue;
         scene->textures[k].version++;
         scene->textures[k].path = path;
-        scene->textures[k].levels = NULL;
         if (!path) scene->textures[k].inverted = 0;
     }
+    textures_put_levels(scene->textures, scene->texture_count, image, levels);
     reliefs_renew(scene, image);
 }
 
-void picture_invert(WeftImage *image, unsigned channels) {
+void picture_invert(WeftImage *image, TextureLevels **levels, unsigned channels) {
+    if (!channels) return;
+    levels_free(*levels);
+    *levels = NULL;
     const int count = image->channels, alpha = count % 2 ? -1 : count - 1;
     const size_t values = (size_t)image->width * (size_t)image->height * (size_t)count;
     for (int c = 0; c < count; c++) {
@@ -88,23 +91,19 @@ WeftImage weft_scene_texture(const WeftScene *scene, int index) {
 WeftResult weft_scene_put_texture(WeftScene *scene, int index, WeftImage *image, WeftError *error) {
     if (!is_texture(scene, index)) return fail(error, WEFT_MESSAGE_DESC, "texture", "number %d does not exist", index);
     WeftResult result = check_image(image, error);
-    if (result == WEFT_OK) picture_replace(scene, scene->textures[index - 1].image, image, NULL);
+    if (result == WEFT_OK) picture_replace(scene, scene->textures[index - 1].image, image, NULL, NULL);
     return result;
 }
 
 WeftResult weft_scene_read_texture(WeftScene *scene, int index, const WeftLog *log, WeftError *error) {
     WeftImage image;
+    TextureLevels *levels;
     const char *path = weft_scene_texture_path(scene, index);
     if (!path) return fail(error, WEFT_MESSAGE_DESC, "texture", "number %d has no file of its own", index);
-    WeftResult result = weft_image_read(path, &image, log, error);
+    WeftResult result = levels_read(path, &image, &levels, log, error);
     if (result != WEFT_OK) return result;
-    const int number = scene->textures[index - 1].image;
-    const bool inverted = scene->textures[index - 1].inverted != 0;
-    const TextureLevels *levels = inverted ? NULL : levels_read_file(&scene->arena, path, &image);
-    picture_invert(&image, scene->textures[index - 1].inverted);
-    picture_replace(scene, number, &image, path);
-    for (int k = 0; k < scene->texture_count; k++)
-        if (scene->textures[k].image == number) scene->textures[k].levels = levels;
+    picture_invert(&image, &levels, scene->textures[index - 1].inverted);
+    picture_replace(scene, scene->textures[index - 1].image, &image, levels, path);
     return WEFT_OK;
 }
 

@@ -11,9 +11,9 @@ int picture_add(WeftScene *scene, WeftImage *image, Texture like);
 int texture_number_of(WeftScene *scene, Texture texture);
 
 /* Replaces the pixels of an image, zeroes *fresh, and marks all its textures as changed and of the file `path`, or of
- * none if that is NULL. path must live as long as the scene. */
-void picture_replace(WeftScene *scene, int image, WeftImage *fresh, const char *path);
+ * none if that is NULL. path must live as long as the scene. levels: those of the fresh pixels, taken over; NULL: none. */
+void picture_replace(WeftScene *scene, int image, WeftImage *fresh, TextureLevels *levels, const char *path);
 
 /* Replaces v by 1 - v in channels: bits 0 to 2 are red, green and blue, which a grey image has as one, bit 3 is
- * alpha. */
-void picture_invert(WeftImage *image, unsigned channels);
+ * alpha. If there are any the levels of the file, which show the other thing, are released and *levels becomes NULL. */
+void picture_invert(WeftImage *image, TextureLevels **levels, unsigned channels);

@@ -198,7 +198,7 @@ void reliefs_renew(WeftScene *scene, int image) {
         WeftImage fresh;
         if (!smoothed.source || scene->textures[smoothed.source - 1].image != image) continue;
         if (smooth(scene, &scene->textures[smoothed.source - 1], smoothed.sigma, &fresh))
-            picture_replace(scene, smoothed.image, &fresh, NULL);
+            picture_replace(scene, smoothed.image, &fresh, NULL, NULL);
     }
 }
 

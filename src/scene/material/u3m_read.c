@@ -80,12 +80,13 @@ static void color(U3mReader *r, const json_t *json, const char *what, float line
 }
 
 /* Reads the pixels of a file at that path, in the archive if there is one. */
-static WeftResult read_pixels(const U3mReader *r, const char *path, WeftImage *image, WeftError *error) {
+static WeftResult read_pixels(const U3mReader *r, const char *path, WeftImage *image, TextureLevels **levels,
+                              WeftError *error) {
     FileBytes bytes;
     U3mArchive *archive = r->files->archive;
-    if (!archive) return weft_image_read(path, image, r->log, error);
+    if (!archive) return levels_read(path, image, levels, r->log, error);
     WeftResult result = u3m_archive_read(archive, path, &bytes, error);
-    if (result == WEFT_OK) result = weft_image_read_memory(bytes.data, bytes.size, path, image, r->log, error);
+    if (result == WEFT_OK) result = levels_decode(bytes.data, bytes.size, path, image, levels, r->log, error);
     free(bytes.data);
     return result;
 }
@@ -102,7 +103,8 @@ static int read_image(U3mReader *r, const char *file) {
     snprintf(path, size, "%s%s", r->files->folder, file);
     WeftError why;
     WeftImage image = {0};
-    const WeftResult result = read_pixels(r, path, &image, &why);
+    TextureLevels *levels = NULL;
+    const WeftResult result = read_pixels(r, path, &image, &levels, &why);
     if (result != WEFT_OK) {
         char place[96];
         free(path);
@@ -114,6 +116,7 @@ static int read_image(U3mReader *r, const char *file) {
         return -1;
     }
     out->images[out->image_count] = image; /* never full: at most one image an input */
+    out->levels[out->image_count] = levels;
     out->paths[out->image_count] = r->files->archive ? NULL : path;
     if (r->files->archive) free(path);
     return out->image_count++;
@@ -191,7 +194,9 @@ static int take_image(U3mReader *r, const U3mField *field, const json_t *texture
     if (index < 0 || u3m_texture_plain(field, &formula, &out->images[index], value)) return index;
     const WeftResult result = u3m_texture_make(field, &formula, &out->images[index], value, r->error);
     if (result != WEFT_OK) r->result = result;
-    free(out->paths[index]); /* the file has another picture */
+    levels_free(out->levels[index]); /* the file has another picture */
+    out->levels[index] = NULL;
+    free(out->paths[index]);
     out->paths[index] = NULL;
     return index;
 }

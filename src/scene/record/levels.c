@@ -4,47 +4,63 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "base/path.h"
+#include "base/memory.h"
 #include "image/halve.h"
 #include "image/ktx2/ktx2.h"
-#include "image/pixel.h"
 
-/* Reads a level after the first into the arena. Returns false unless it is half of the one before, and of its kind. */
-static bool level_read(Arena *arena, const Ktx2 *file, int level, const WeftImage *before, WeftImage *out) {
-    WeftImage image = {0};
-    if (ktx2_picture(file, level, 0, &image, NULL) != WEFT_OK) return false;
-    const size_t size = (size_t)image.width * (size_t)image.height * (size_t)image.channels;
-    const bool fits = image.width == halved(before->width) && image.height == halved(before->height) &&
-                      image.channels == before->channels && image.type == before->type;
-    *out = image;
-    out->pixels = fits ? arena_array(arena, size, pixel_type_size(image.type)) : NULL;
-    if (out->pixels) memcpy(out->pixels, image.pixels, size * pixel_type_size(image.type));
-    weft_image_free(&image);
-    return out->pixels != NULL;
+/* Reads a level after the first. Returns false unless it is half of the one before, and of its kind. */
+static bool level_read(const Ktx2 *file, int level, const WeftImage *before, WeftImage *out) {
+    return ktx2_picture(file, level, 0, out, NULL) == WEFT_OK && out->width == halved(before->width) &&
+           out->height == halved(before->height) && out->channels == before->channels && out->type == before->type;
 }
 
-const TextureLevels *levels_read(Arena *arena, const unsigned char *data, size_t size, const WeftImage *picture) {
-    const ImageSource source = {.data = data, .size = size, .name = ""};
-    Ktx2 file;
+/* Reads all levels of a file that has as many as the picture halves. Returns NULL unless they are whole. */
+static TextureLevels *levels_of(const Ktx2 *file, const WeftImage *picture) {
+    const ImageSource *source = file->source;
     int count = 0;
-    if (!data || !ktx2_starts(data, size) || ktx2_open(&source, &file, NULL) != WEFT_OK) return NULL;
     for (int w = picture->width, h = picture->height; w > 1 || h > 1; w = halved(w), h = halved(h)) count++;
-    if (!count || (uint32_t)count + 1 > file.levels) return NULL;
-    TextureLevels *levels = arena_array(arena, 1, sizeof *levels);
-    WeftImage *images = arena_array(arena, (size_t)count, sizeof *images);
-    unsigned char *copy = arena_array(arena, size, 1);
-    if (!levels || !images || !copy) return NULL;
-    for (int k = 0; k < count; k++)
-        if (!level_read(arena, &file, k + 1, k ? &images[k - 1] : picture, &images[k])) return NULL;
-    memcpy(copy, data, size);
-    *levels = (TextureLevels){.images = images, .count = count, .file = copy, .size = size};
-    return levels;
+    if (!count || (uint32_t)count + 1 > file->levels) return NULL;
+    TextureLevels *levels = alloc_array(1, sizeof *levels);
+    if (!levels) return NULL;
+    levels->images = alloc_array((size_t)count, sizeof *levels->images);
+    levels->file = alloc_array(source->size, 1);
+    levels->size = source->size;
+    bool whole = levels->images && levels->file;
+    for (; whole && levels->count < count; levels->count++)
+        whole = level_read(file, levels->count + 1, levels->count ? &levels->images[levels->count - 1] : picture,
+                           &levels->images[levels->count]);
+    if (whole) memcpy(levels->file, source->data, source->size);
+    if (whole) return levels;
+    levels_free(levels);
+    return NULL;
 }
 
-const TextureLevels *levels_read_file(Arena *arena, const char *path, const WeftImage *picture) {
+WeftResult levels_decode(const void *data, size_t size, const char *name, WeftImage *out, TextureLevels **levels,
+                         const WeftLog *log, WeftError *error) {
+    const ImageSource source = {.data = data, .size = size, .name = name};
+    Ktx2 file;
+    *levels = NULL;
+    const WeftResult result = weft_image_read_memory(data, size, name, out, log, error);
+    if (result == WEFT_OK && ktx2_starts(data, size) && ktx2_open(&source, &file, NULL) == WEFT_OK)
+        *levels = levels_of(&file, out);
+    return result;
+}
+
+WeftResult levels_read(const char *path, WeftImage *out, TextureLevels **levels, const WeftLog *log, WeftError *error) {
     FileBytes file;
-    if (!path || !path_ends(path, ".ktx2") || file_read(path, (size_t)1 << 30, &file, NULL) != WEFT_OK) return NULL;
-    const TextureLevels *levels = levels_read(arena, file.data, file.size, picture);
+    *out = (WeftImage){0};
+    *levels = NULL;
+    WeftResult result = file_read(path, (size_t)1 << 30, &file, error);
+    if (result != WEFT_OK) return result;
+    result = levels_decode(file.data, file.size, path, out, levels, log, error);
     free(file.data);
-    return levels;
+    return result;
+}
+
+void levels_free(TextureLevels *levels) {
+    if (!levels) return;
+    for (int k = 0; k < levels->count; k++) weft_image_free(&levels->images[k]);
+    free(levels->images);
+    free(levels->file);
+    free(levels);
 }

@@ -11,6 +11,19 @@ SrgbTable srgb_table(void) {
     return table;
 }
 
+void textures_put_levels(Texture *textures, int count, int image, TextureLevels *levels) {
+    TextureLevels *before = NULL;
+    bool taken = false;
+    for (int k = 0; k < count; k++) {
+        if (textures[k].image != image) continue;
+        if (textures[k].levels) before = textures[k].levels;
+        textures[k].levels = levels;
+        taken = true;
+    }
+    levels_free(before);
+    if (!taken) levels_free(levels);
+}
+
 /* A texel's four channels, in one register. */
 typedef float Channels __attribute__((vector_size(16)));
 

@@ -15,10 +15,10 @@ typedef struct Texture {
     int source;     /* number of the texture that this one was smoothed from (scene/material/relief.h); 0: none */
     float sigma[2]; /* of that Gaussian along u and v, as parts of the sides; infinite: flat */
     /* Properties of the image, equal for all textures of it: */
-    const char *path;            /* path of its file; NULL if it is not a file of its own */
-    unsigned version;            /* counts changes of the pixels */
-    const TextureLevels *levels; /* of its own, in the scene's memory; NULL: none */
-    unsigned inverted;           /* bit c: channel c is 1 - that of the file, as roughness is of a picture of gloss */
+    const char *path;      /* path of its file; NULL if it is not a file of its own */
+    unsigned version;      /* counts changes of the pixels */
+    TextureLevels *levels; /* of its own; owned by the scene with the image; NULL: none */
+    unsigned inverted;     /* bit c: channel c is 1 - that of the file, as roughness is of a picture of gloss */
 } Texture;
 
 typedef struct Texel {
@@ -31,6 +31,9 @@ typedef struct SrgbTable {
 } SrgbTable;
 
 SrgbTable srgb_table(void);
+
+/* Gives the textures of an image these levels, which may be NULL, and releases those before. Takes the levels over. */
+void textures_put_levels(Texture *textures, int count, int image, TextureLevels *levels);
 
 /* Returns the texture's value at (u, v), v running down the image as in glTF: bilinear unless nearest. If srgb is not
  * NULL the RGB of integer images is decoded to linear Rec. 709 before it is interpolated; alpha never is.
