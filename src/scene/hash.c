@@ -38,7 +38,7 @@ static uint64_t hash_texture(uint64_t hash, const WeftScene *scene, const Textur
     const int form[] = {texture->image, (int)texture->wrap_u, (int)texture->wrap_v, texture->nearest,
                         (int)texture->inverted};
     hash = hash_image(cache_hash(hash, form, sizeof form), &scene->images[texture->image]);
-    const TextureLevels *levels = texture->levels;
+    const TextureLevels *levels = texture_levels(texture);
     for (int k = 0; levels && k < levels->count; k++) hash = hash_image(hash, &levels->images[k]);
     return hash;
 }

@@ -76,11 +76,12 @@ static Texture sampler_read(const Field *field) {
                                        "name",  "extensions", "extras",    NULL};
     Field wrap_s = field_member(field, "wrapS"), wrap_t = field_member(field, "wrapT"),
           mag = field_member(field, "magFilter"), min = field_member(field, "minFilter");
-    constant_read(&min, mins); /* the renderer minifies as it can */
+    const int minified = constant_read(&min, mins); /* absent: as the renderer likes */
     field_keys(field, keys);
     return (Texture){.wrap_u = (TextureWrap)constant_read(&wrap_s, wraps),
                      .wrap_v = (TextureWrap)constant_read(&wrap_t, wraps),
-                     .nearest = constant_read(&mag, mags) == 1};
+                     .nearest = constant_read(&mag, mags) == 1,
+                     .single = min.json && minified < 2};
 }
 
 void textures_read(Asset *asset) {

@@ -54,13 +54,15 @@ static bool number_all(Saving *saving) {
 
 static void sampler_put(Saving *saving, const Texture *texture, json_t *object) {
     static const int wraps[] = {10497, 33648, 33071}; /* indexed by TextureWrap; of the specification */
-    enum { NEAREST = 9728 };
-    if (texture->wrap_u == WRAP_REPEAT && texture->wrap_v == WRAP_REPEAT && !texture->nearest) return;
+    enum { NEAREST = 9728, LINEAR = 9729 };
+    if (texture->wrap_u == WRAP_REPEAT && texture->wrap_v == WRAP_REPEAT && !texture->nearest && !texture->single)
+        return;
     json_t *list = saving_list(saving, "samplers"), *sampler = json_object(), *other;
     saving_put(saving, sampler, "wrapS", json_integer(wraps[texture->wrap_u]));
     saving_put(saving, sampler, "wrapT", json_integer(wraps[texture->wrap_v]));
     if (texture->nearest) saving_put(saving, sampler, "magFilter", json_integer(NEAREST));
-    if (texture->nearest) saving_put(saving, sampler, "minFilter", json_integer(NEAREST));
+    if (texture->nearest || texture->single)
+        saving_put(saving, sampler, "minFilter", json_integer(texture->nearest ? NEAREST : LINEAR));
     size_t index;
     json_array_foreach(list, index, other) {
         if (json_equal(sampler, other)) break;

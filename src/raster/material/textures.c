@@ -99,7 +99,7 @@ static int make_plan(Plan *plan) {
             if (texture < 0) continue;
             place(plan, texture, textures_use(material, k));
             const Texture *t = &scene->textures[texture]; /* levels of its own have the slopes in their roughness */
-            bool slopes = input_infos[k].kind == WEFT_INPUT_NORMAL && !t->nearest && !t->levels;
+            bool slopes = input_infos[k].kind == WEFT_INPUT_NORMAL && !t->nearest && !texture_levels(t);
             if (slopes) place(plan, texture, TEXTURE_SLOPES);
         }
         int count = count_groups(plan->places, scene->texture_count, material);
@@ -199,8 +199,9 @@ static size_t level_at(const TextureGroup *group, int level) {
 static bool has_own_levels(const WeftScene *scene, int texture, const TextureGroup *group) {
     const Texture *t = &scene->textures[texture];
     const WeftImage *image = &scene->images[t->image];
-    return t->levels && group->format != GL_RGBA16F && image->width == group->width && image->height == group->height &&
-           levels_of(group) == t->levels->count + 1;
+    const TextureLevels *own = texture_levels(t);
+    return own && group->format != GL_RGBA16F && image->width == group->width && image->height == group->height &&
+           levels_of(group) == own->count + 1;
 }
 
 static void make_layer(void *user, int item, int thread) {
@@ -216,7 +217,7 @@ static void make_layer(void *user, int item, int thread) {
         return;
     }
     put_texels(scene, texture, use, group, to);
-    const TextureLevels *own = has_own_levels(scene, texture, group) ? scene->textures[texture].levels : NULL;
+    const TextureLevels *own = has_own_levels(scene, texture, group) ? texture_levels(&scene->textures[texture]) : NULL;
     for (int level = 1, w = group->width, h = group->height; level < levels_of(group);
          level++, w = halved(w), h = halved(h)) {
         unsigned char *from = to;

@@ -51,7 +51,8 @@ static int find_path(const WeftScene *scene, const MapPicture *picture) {
 static int find_plain(const WeftScene *scene, int image) {
     for (int k = 0; k < scene->texture_count; k++) {
         const Texture *t = &scene->textures[k];
-        if (t->image == image && t->wrap_u == WRAP_REPEAT && t->wrap_v == WRAP_REPEAT && !t->nearest) return k;
+        if (t->image == image && t->wrap_u == WRAP_REPEAT && t->wrap_v == WRAP_REPEAT && !t->nearest && !t->single)
+            return k;
     }
     return -1;
 }

@@ -210,6 +210,9 @@ static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
         } else if (strcmp(key, "nearest") == 0) {
             if (!json_is_boolean(value)) refuse_value(r, value, "nearest must be true or false");
             texture.nearest = json_is_true(value);
+        } else if (strcmp(key, "levels") == 0) {
+            if (!json_is_boolean(value)) refuse_value(r, value, "levels must be true or false");
+            texture.single = json_is_false(value);
         } else if (!read_placing(r, key, value, &placing)) {
             refuse(r, "\"%.40s\" is not a key of a texture", key);
         }

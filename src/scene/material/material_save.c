@@ -156,6 +156,7 @@ static json_t *texture_json(Writer *w, const Material *material, InputId id) {
     if (texture->wrap_u != WRAP_REPEAT || texture->wrap_v != WRAP_REPEAT)
         put(w, object, "wrap", json_pack("[ss]", wraps[texture->wrap_u], wraps[texture->wrap_v]));
     if (texture->nearest) put(w, object, "nearest", json_true());
+    if (texture->single) put(w, object, "levels", json_false());
     return object;
 }
 

@@ -114,8 +114,9 @@ Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbT
 
 void texture_fetch_levels(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n, const float *u,
                           const float *v, const int *level, float *texels) {
+    const TextureLevels *levels = texture_levels(texture);
     for (int k = 0; k < n; k++) {
-        const WeftImage *image = level[k] > 0 ? &texture->levels->images[level[k] - 1] : &images[texture->image];
+        const WeftImage *image = level[k] > 0 ? &levels->images[level[k] - 1] : &images[texture->image];
         Channels c = fetch_one(texture, image, srgb, u[k], v[k]);
         for (int channel = 0; channel < 4; channel++) texels[channel * ROW_CAPACITY + k] = c[channel];
     }

@@ -12,6 +12,7 @@ typedef struct Texture {
     int image; /* index into the scene's images */
     TextureWrap wrap_u, wrap_v;
     bool nearest;   /* no interpolation between texels */
+    bool single;    /* its sampler asks for no mip levels: minFilter NEAREST or LINEAR of glTF */
     int source;     /* number of the texture that this one was smoothed from (scene/material/relief.h); 0: none */
     float sigma[2]; /* of that Gaussian along u and v, as parts of the sides; infinite: flat */
     /* Properties of the image, equal for all textures of it: */
@@ -31,6 +32,12 @@ typedef struct SrgbTable {
 } SrgbTable;
 
 SrgbTable srgb_table(void);
+
+/* Returns the levels of its own that are drawn of a texture from afar, by both renderers; NULL where it has none, or where
+ * its sampler asks for the picture itself: `single`, and `nearest`, of which all texels are meant to be seen. */
+static inline const TextureLevels *texture_levels(const Texture *texture) {
+    return texture->single || texture->nearest ? NULL : texture->levels;
+}
 
 /* Gives the textures of an image these levels, which may be NULL, and releases those before. Takes the levels over. */
 void textures_put_levels(Texture *textures, int count, int image, TextureLevels *levels);

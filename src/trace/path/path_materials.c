@@ -47,7 +47,7 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
         const Input *of = &prepared->material.inputs[input];
         prepared->textured |= of->texture != 0;
         prepared->texcoords[of->texcoord] |= of->texture != 0;
-        prepared->leveled[of->texcoord] |= of->texture && scene->textures[of->texture - 1].levels;
+        prepared->leveled[of->texcoord] |= of->texture && texture_levels(&scene->textures[of->texture - 1]);
     }
     prepared->cloth = scene_cloth_of(scene, material);
     if (prepared->cloth) prepared->material.inputs[INPUT_transmission].texture = 0; /* threads are no glass */

@@ -53,8 +53,9 @@ static void fetch(TexelRows *lookup, const Input *input, const SrgbTable *srgb) 
     const WeftScene *scene = lookup->scene;
     place_uv_n((const Row *)lookup->uv[input->texcoord], input->transform, row_whole(lookup->n), lookup->placed_uv);
     const Texture *texture = &scene->textures[input->texture - 1];
-    if (texture->levels) {
-        find_levels(lookup, input, &scene->images[texture->image], texture->levels->count);
+    const TextureLevels *levels = texture_levels(texture);
+    if (levels) {
+        find_levels(lookup, input, &scene->images[texture->image], levels->count);
         texture_fetch_levels(texture, scene->images, srgb, lookup->n, lookup->placed_uv[0], lookup->placed_uv[1],
                              lookup->level, lookup->texel[0]);
     } else {
