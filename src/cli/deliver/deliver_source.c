@@ -50,11 +50,12 @@ static int draft_load(const Delivery *delivery, WeftScene *scene, const WeftLog 
     return result;
 }
 
-static bool is_woven(const WeftScene *scene) {
+static int woven_count(const WeftScene *scene) {
     WeftMaterial material;
+    int count = 0;
     for (int k = 0; k < weft_scene_info(scene).material_count; k++)
-        if (weft_scene_material(scene, k, &material, NULL) == WEFT_OK && material.cloth) return true;
-    return false;
+        count += weft_scene_material(scene, k, &material, NULL) == WEFT_OK && material.cloth;
+    return count;
 }
 
 /* Lets the materials of an asset look as in the engine that it was made for. */
@@ -76,7 +77,9 @@ static int profile_set(const Delivery *delivery, WeftScene *scene) {
 /* Decides what the numbers of the original mean, and what the pictures show. */
 static int meaning_set(Delivery *delivery, SourceKind kind, WeftScene *scene) {
     const int khronos = kind_find(kind_of("profile"), "khronos");
-    const bool woven = delivery->woven = is_woven(scene);
+    const int count = woven_count(scene);
+    const bool woven = delivery->woven = count > 0;
+    delivery->all_woven = count == weft_scene_info(scene).material_count;
     delivery->from = khronos;
     delivery->reference = "its threads";
     if (kind == SOURCE_ASSET) {
@@ -149,15 +152,27 @@ static int number_check(const WeftScene *scene, int index, const char *number) {
     return 0;
 }
 
-/* Bakes the cloth of a material to textures that are fitted to a profile, and gives it these. */
+/* Bakes the cloth of a material to textures in a folder, which holds material.json when all are made. */
+static WeftResult textures_bake(const WeftScene *scene, const WeftMaterial *material, const WeftBaking *baking,
+                                const char *folder, WeftError *error) {
+    const WeftMaterial bare = without_layers(material);
+    WeftYarn yarns[2];
+    WeftCloth *cloth = NULL;
+    const WeftDraft *draft = weft_scene_cloth(scene, material->cloth, yarns);
+    const WeftClothInfo info = weft_scene_cloth_info(scene, material->cloth);
+    WeftResult result = weft_cloth_create(draft, yarns, (unsigned)info.seed, &cloth, error);
+    if (result == WEFT_OK) result = weft_material_bake(&bare, cloth, baking, folder, NULL, error);
+    weft_cloth_free(cloth);
+    return result;
+}
+
+/* Gives a material whose cloth is woven the textures of it that are fitted to a profile, baked by the first target that
+ * wants them. */
 static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftMaterial *material,
                       const char *profile, bool levels) {
     const WeftClothInfo info = weft_scene_cloth_info(scene, material->cloth);
     const WeftBaking baking = {
         .pixels = delivery->pixels, .metres = (double)info.metres, .profile = profile, .levels = levels};
-    const WeftMaterial bare = without_layers(material);
-    WeftYarn yarns[2];
-    WeftCloth *cloth = NULL;
     WeftError error;
     char folder[DELIVER_PATH], file[DELIVER_PATH + 32], number[16];
     snprintf(number, sizeof number, "%d", index);
@@ -165,10 +180,8 @@ static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const Wef
     if (checked != 0) return checked;
     snprintf(folder, sizeof folder, "%.3900s/bake-%.32s-%d-%d", delivery->temporary, profile, levels, index);
     snprintf(file, sizeof file, "%s/material.json", folder);
-    const WeftDraft *draft = weft_scene_cloth(scene, material->cloth, yarns);
-    WeftResult result = weft_cloth_create(draft, yarns, (unsigned)info.seed, &cloth, &error);
-    if (result == WEFT_OK) result = weft_material_bake(&bare, cloth, &baking, folder, NULL, &error);
-    weft_cloth_free(cloth);
+    WeftResult result = WEFT_OK;
+    if (access(file, F_OK) != 0) result = textures_bake(scene, material, &baking, folder, &error);
     if (result == WEFT_OK) result = weft_scene_assign_material(scene, number, file, NULL, &error);
     if (result == WEFT_OK) result = layers_keep(scene, index, material, &error);
     if (info.rotation > 0.0f || info.rotation < 0.0f)
@@ -190,15 +203,6 @@ int source_bake(Delivery *delivery, const char *profile, bool levels, WeftScene 
     return result;
 }
 
-/* Returns true if every material is cloth, so that all of the source is made for the target and nothing has to be
- * converted from another engine. */
-static bool all_woven(const WeftScene *scene) {
-    WeftMaterial material;
-    for (int k = 0; k < weft_scene_info(scene).material_count; k++)
-        if (weft_scene_material(scene, k, &material, NULL) != WEFT_OK || !material.cloth) return false;
-    return true;
-}
-
 bool target_levels(const Delivery *delivery, const TargetFile *file) {
     return delivery->textures == TEXTURES_KTX2 ||
            (delivery->textures == TEXTURES_AUTO && file_target(file).levels != 0);
@@ -215,16 +219,13 @@ int source_write(Delivery *delivery, const TargetFile *file, char path[DELIVER_P
         snprintf(path, DELIVER_PATH, "%s", delivery->what);
         return 0;
     }
-    int result = source_load(delivery, &scene);
-    if (result == 0 && all_woven(scene))
+    if (delivery->all_woven)
         *from = kind_find(kind_of("profile"), target.profile);
     else if (delivery->from >= 0) /* beside cloth there is what was made for that engine, and the file is for one */
         profile = weft_profile_name(delivery->from);
-    weft_scene_free(scene);
     snprintf(path, DELIVER_PATH, "%.3900s/source-%.32s-%d.glb", delivery->temporary, profile, levels);
-    if (result != 0 || access(path, F_OK) == 0) return result; /* made for an earlier target */
-    scene = NULL;
-    result = source_bake(delivery, profile, levels, &scene);
+    if (access(path, F_OK) == 0) return 0; /* made for an earlier target */
+    int result = source_bake(delivery, profile, levels, &scene);
     if (result == 0) result = told(weft_scene_save(scene, path, &error), &error);
     weft_scene_free(scene);
     return result;

@@ -61,7 +61,9 @@ typedef struct Delivery {
     int pixels, width, height, spp;
     int textures; /* of cloth: of TextureFormat */
     char cameras[VIEW_COUNT][WEFT_CAMERA_TEXT];
-    bool woven;     /* X has cloth, which is baked for each target by itself */
+    bool woven; /* X has cloth, which is baked for each target by itself */
+    bool
+        all_woven; /* all of X is cloth, so that all is made for the target and nothing converted from another engine */
     char lost[400]; /* what the original has and its textures lack, sentences; "": nothing */
     TargetFile files[DELIVER_TARGETS];
     int count;

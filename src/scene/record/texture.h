@@ -12,7 +12,7 @@ typedef struct Texture {
     int image; /* index into the scene's images */
     TextureWrap wrap_u, wrap_v;
     bool nearest;   /* no interpolation between texels */
-    bool single;    /* its sampler asks for no mip levels: minFilter NEAREST or LINEAR of glTF */
+    bool single;    /* the sampler asks for no mip levels: minFilter NEAREST or LINEAR of glTF */
     int source;     /* number of the texture that this one was smoothed from (scene/material/relief.h); 0: none */
     float sigma[2]; /* of that Gaussian along u and v, as parts of the sides; infinite: flat */
     /* Properties of the image, equal for all textures of it: */
