@@ -1,6 +1,7 @@
 /* Mip levels that a KTX 2 file has of its own: both renderers draw them from afar, and a saved scene keeps the file
  *
  * Labels: unsanitized */
+#include <malloc.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -117,16 +118,188 @@ static const struct {
 } seen[] = {{0.5, 0, 0.0}, {1.0, 0, 0.0}, {2.0, 1, 0.0}, {4.0, 2, 0.0}, {2.8284, 1, 0.5}, {1.4142, 0, 0.5}};
 enum { SEEN = sizeof seen / sizeof *seen };
 
-static void both_renderers_draw_the_levels(void **state) {
-    (void)state;
+static void levels_are_seen(WeftImage (*render)(const WeftScene *), const char *what) {
     material_write("own", LEVELS);
     for (int k = 0; k < SEEN; k++) {
         WeftScene *scene = square("own.json", seen[k].across);
-        looks_like(traced(scene), "traced", seen[k].level, seen[k].next);
-        if (!no_gl) looks_like(drawn(scene), "drawn", seen[k].level, seen[k].next);
+        looks_like(render(scene), what, seen[k].level, seen[k].next);
         weft_scene_free(scene);
     }
-    if (no_gl) print_message("without OpenGL only the path tracer was tried\n");
+}
+
+static void path_tracer_draws_the_levels(void **state) {
+    (void)state;
+    levels_are_seen(traced, "traced");
+}
+
+static void raster_engine_draws_the_levels(void **state) {
+    (void)state;
+    need_gl();
+    levels_are_seen(drawn, "drawn");
+}
+
+/* A sampler of each kind that asks for no levels shows the picture itself, also when it was saved and read again. */
+static void samplers_without_levels(WeftImage (*render)(const WeftScene *), const char *what) {
+    WeftError error;
+    material_write("own", LEVELS);
+    for (int k = 0; k < 2; k++) {
+        WeftScene *scene = square("own.json", 4.0), *again;
+        scene->textures[0].nearest = k == 0;
+        scene->textures[0].single = k == 1;
+        looks_like(render(scene), what, 0, 0.0);
+        if (weft_scene_save(scene, "sampled.glb", &error) != WEFT_OK) fail_msg("%s", error.text);
+        if (weft_scene_load("sampled.glb", &again, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+        assert_non_null(again->textures[0].levels);
+        test_environment(again, 1.0f);
+        looks_like(render(again), what, 0, 0.0);
+        weft_scene_free(again);
+        weft_scene_free(scene);
+    }
+}
+
+static void path_tracer_heeds_samplers(void **state) {
+    (void)state;
+    samplers_without_levels(traced, "traced");
+}
+
+static void raster_engine_heeds_samplers(void **state) {
+    (void)state;
+    need_gl();
+    samplers_without_levels(drawn, "drawn");
+}
+
+/* Writes the material NAME.json whose texture is a file, with `more` said of it. */
+static void texture_say(const char *name, const char *texture, const char *more) {
+    FILE *file = fopen(name, "w");
+    assert_non_null(file);
+    fprintf(file, "{\"base_color\": {\"texture\": \"%s\", %s}, \"roughness\": 1, \"specular\": 0, \"reflectance\": 0}",
+            texture, more);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* A material file says it by a word, and no other than true or false. */
+static void material_files_turn_levels_off(void **state) {
+    (void)state;
+    WeftError error;
+    material_write("own", LEVELS);
+    texture_say("off.json", "own.ktx2", "\"levels\": false");
+    WeftScene *scene = square("off.json", 4.0);
+    looks_like(traced(scene), "levels: false", 0, 0.0);
+    assert_int_equal(weft_scene_save_material(scene, 0, "kept-off.json", &error), WEFT_OK);
+    texture_say("odd.json", "own.ktx2", "\"levels\": 1");
+    assert_int_equal(weft_scene_assign_material(scene, NULL, "odd.json", NULL, &error), WEFT_INPUT);
+    assert_non_null(strstr(error.text, "levels must be true or false"));
+    weft_scene_free(scene);
+    scene = square("kept-off.json", 4.0);
+    looks_like(traced(scene), "saved", 0, 0.0);
+    weft_scene_free(scene);
+}
+
+/* The levels are there however the file came: by a material, as a map of its name, or read again. */
+static void levels_do_not_depend_on_how_a_file_came(void **state) {
+    (void)state;
+    WeftError error;
+    material_write("own", LEVELS);
+    material_write("other", LEVELS);
+    static const char *const paths[] = {"own.ktx2", "other.ktx2"}; /* the scene has the first */
+    for (int k = 0; k < 2; k++) {
+        WeftScene *scene = square("own.json", 4.0);
+        if (weft_scene_set_texture(scene, "matt.base_color", paths[k], NULL, &error) != WEFT_OK)
+            fail_msg("%s", error.text);
+        looks_like(traced(scene), paths[k], 2, 0.0);
+        for (int t = 1; t <= scene->texture_count; t++)
+            if (weft_scene_read_texture(scene, t, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+        looks_like(traced(scene), "read again", 2, 0.0);
+        weft_scene_free(scene);
+    }
+}
+
+/* Memory does not grow with reloads: an editor's user saves the picture a hundred times. */
+static void reloads_release_the_levels_before(void **state) {
+    (void)state;
+    enum { RELOADS = 100, FIRST = 4 };
+    size_t before = 0;
+    material_write("own", LEVELS);
+    WeftScene *scene = square("own.json", 4.0);
+    for (int k = 0; k < RELOADS; k++) {
+        if (k == FIRST) before = mallinfo2().uordblks;
+        assert_int_equal(weft_scene_read_texture(scene, 1, NULL, NULL), WEFT_OK);
+    }
+    const size_t after = mallinfo2().uordblks, set = (size_t)TEXELS * TEXELS; /* of all levels, at 3 bytes a texel */
+    if (after > before + 10 * set) fail_msg("%zu bytes more", after - before);
+    weft_scene_free(scene);
+}
+
+/* Scenes whose textures differ only in their levels are not one scene. */
+static void levels_count_in_the_hash(void **state) {
+    (void)state;
+    material_write("own", LEVELS);
+    material_write("short", 2);
+    WeftScene *own = square("own.json", 4.0), *same = square("own.json", 4.0), *other = square("short.json", 4.0);
+    assert_true(weft_scene_hash(own) == weft_scene_hash(same));
+    assert_true(weft_scene_hash(own) != weft_scene_hash(other));
+    weft_scene_free(own);
+    weft_scene_free(same);
+    weft_scene_free(other);
+}
+
+/* A file with a damaged level, the second or the last, still has its picture. */
+static void damaged_levels_are_left_out(void **state) {
+    (void)state;
+    enum { INDEX = 80, ENTRY = 24 };
+    static const int damaged[] = {1, LEVELS};
+    for (int k = 0; k < 2; k++) {
+        FileBytes file;
+        material_write("hurt", LEVELS);
+        assert_int_equal(file_read("hurt.ktx2", SIZE_MAX, &file, NULL), WEFT_OK);
+        const unsigned char *entry = file.data + INDEX + ENTRY * damaged[k];
+        const size_t at = entry[0] + 256u * entry[1] + 65536u * entry[2], size = entry[8] + 256u * entry[9];
+        assert_true(size > 0 && at + size <= file.size);
+        memset(file.data + at, 0xff, size);
+        FILE *stream = fopen("hurt.ktx2", "wb");
+        assert_non_null(stream);
+        assert_true(fwrite(file.data, 1, file.size, stream) == file.size);
+        assert_int_equal(fclose(stream), 0);
+        free(file.data);
+        WeftScene *scene = square("hurt.json", 4.0);
+        looks_like(traced(scene), "damaged", 0, 0.0);
+        weft_scene_free(scene);
+    }
+}
+
+/* The roughness that is made of a glossiness has no levels: those of the file show the specular colour. */
+static void glossiness_is_not_read_as_roughness(void **state) {
+    (void)state;
+    static const char text[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":0}]}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[-1,-1,0],"
+        "\"max\":[1,1,0]},{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":"
+        "\"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA\"}],"
+        "\"extensionsUsed\":[\"KHR_materials_pbrSpecularGlossiness\",\"KHR_texture_basisu\"],"
+        "\"images\":[{\"uri\":\"gloss.ktx2\"}],"
+        "\"textures\":[{\"extensions\":{\"KHR_texture_basisu\":{\"source\":0}}}],"
+        "\"materials\":[{\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{"
+        "\"specularGlossinessTexture\":{\"index\":0}}}}]}";
+    WeftImage image;
+    WeftError error;
+    assert_int_equal(weft_image_create(TEXELS, TEXELS, 4, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
+    for (int k = 0; k < 4 * TEXELS * TEXELS; k++) ((unsigned char *)image.pixels)[k] = k % 4 == 3 ? 51 : 255;
+    assert_int_equal(weft_image_write_as("gloss.ktx2", &image, &(WeftImageWriting){.data = 0}, &error), WEFT_OK);
+    weft_image_free(&image);
+    FILE *file = fopen("gloss.gltf", "w");
+    assert_true(file && fputs(text, file) >= 0 && fclose(file) == 0);
+    WeftScene *scene;
+    if (weft_scene_load("gloss.gltf", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    const Input *inputs = scene->materials[0].inputs;
+    const Texture *specular = &scene->textures[inputs[INPUT_specular_color].texture - 1],
+                  *roughness = &scene->textures[inputs[INPUT_roughness].texture - 1];
+    assert_non_null(specular->levels);
+    assert_null(roughness->levels);
+    const double first = ((const uint16_t *)scene->images[roughness->image].pixels)[0] / 65535.0;
+    assert_true(fabs(first - 0.8) < 0.02);
+    weft_scene_free(scene);
 }
 
 /* Levels that do not go down to one texel are no pyramid: the picture itself is drawn, as if there were none. */
@@ -186,9 +359,12 @@ static int leave(void **state) { return chdir("/") == 0 && scratch_remove(*state
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(both_renderers_draw_the_levels),
-        cmocka_unit_test(levels_that_end_early_are_left_out),
-        cmocka_unit_test(saved_scenes_keep_the_file),
+        cmocka_unit_test(path_tracer_draws_the_levels),       cmocka_unit_test(raster_engine_draws_the_levels),
+        cmocka_unit_test(path_tracer_heeds_samplers),         cmocka_unit_test(raster_engine_heeds_samplers),
+        cmocka_unit_test(material_files_turn_levels_off),     cmocka_unit_test(levels_do_not_depend_on_how_a_file_came),
+        cmocka_unit_test(reloads_release_the_levels_before),  cmocka_unit_test(levels_count_in_the_hash),
+        cmocka_unit_test(damaged_levels_are_left_out),        cmocka_unit_test(glossiness_is_not_read_as_roughness),
+        cmocka_unit_test(levels_that_end_early_are_left_out), cmocka_unit_test(saved_scenes_keep_the_file),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
