@@ -1,4 +1,5 @@
 /* deliver_u3m.c - a U3M among what is delivered: the textile industry's file of one material */
+#define _XOPEN_SOURCE 700
 #include <stdio.h>
 #include <string.h>
 
@@ -19,33 +20,42 @@ const char *file_suffix(const TargetFile *file) { return file->target == TARGET_
 
 /* Collects the warnings of a writer as things that are lost, a line each. */
 typedef struct Losses {
-    char text[2000];
-    size_t used;
+    const char *path; /* of the file that is written, with which warnings begin; it is none yet */
+    FILE *lines;
 } Losses;
 
 static void loss_note(void *user, WeftMessage message, const char *text) {
-    Losses *losses = user;
-    const char *said = strstr(text, weft_message_text(message)); /* after the name of a file that is none yet */
+    const Losses *losses = user;
+    const size_t path = strnlen(losses->path, 200); /* of which no more is said */
+    if (strncmp(text, losses->path, path) == 0) text += path;
+    const char *said = strstr(text, weft_message_text(message));
     if (said) text = said + strlen(weft_message_text(message));
-    text += strspn(text, ": ");
-    if (losses->used + strlen(text) + 2 >= sizeof losses->text) return;
-    losses->used += (size_t)snprintf(losses->text + losses->used, sizeof losses->text - losses->used, "%s\n", text);
+    fprintf(losses->lines, "%s\n", text + strspn(text, ": "));
+}
+
+/* Writes the material of a scene, and collects what the file lacks of it. */
+static int material_write(WeftScene *scene, const char *path, char **lost) {
+    size_t size;
+    Losses losses = {.path = path, .lines = open_memstream(lost, &size)};
+    if (!losses.lines) return report(WEFT_RESOURCES, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_MEMORY));
+    const WeftLog log = {.fn = loss_note, .user = &losses};
+    WeftError error;
+    int result = weft_scene_save_u3m(scene, 0, path, NULL, &log, &error) == WEFT_OK ? 0 : report_error(&error);
+    const bool whole = fclose(losses.lines) == 0;
+    if (result == 0 && !whole)
+        result = report(WEFT_RESOURCES, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_MEMORY));
+    return result;
 }
 
 int u3m_write(Delivery *delivery, TargetFile *file, const char *path) {
-    Losses losses = {.used = 0};
-    const WeftLog log = {.fn = loss_note, .user = &losses};
     WeftScene *scene = NULL;
-    WeftError error;
     int result = source_bake(delivery, file_target(file).fit, false, &scene);
     const int count = result == 0 ? weft_scene_info(scene).material_count : 1;
     if (count != 1)
         result = report(WEFT_USAGE, "--to u3m: a U3M holds one material, and %.300s has %d; deliver each by itself",
                         delivery->what, count);
-    if (result == 0 && weft_scene_save_u3m(scene, 0, path, NULL, &log, &error) != WEFT_OK)
-        result = report_error(&error);
+    if (result == 0) result = material_write(scene, path, &file->delivery.lost);
     weft_scene_free(scene);
-    file->delivery.lost = result == 0 ? strdup(losses.text) : NULL;
     return result;
 }
 
