@@ -258,6 +258,23 @@ static void camera_inside_a_solid_sees_through_it(void **state) {
     }
 }
 
+/* By a profile that draws no glass a single-sided ball has no back: the camera in it sees the sky. */
+static void profile_without_glass_has_one_side(void **state) {
+    (void)state;
+    int three = 0;
+    while (strcmp(weft_profile_name(three), "three") != 0) three++;
+    WeftScene *scene = test_scene();
+    test_environment(scene, 1.0f);
+    Material *m = glass(scene, 0.5f, 1.0f);
+    test_color(m, INPUT_base_color, 0.1f);
+    weft_material_choose(m, CHOICE_profile, three);
+    test_sphere(scene, vec3(0, 0, 0), 1.0f);
+    scene_bounds(scene);
+    const WeftRenderDesc desc = {.width = 8, .height = 8, .camera = "0,0,0;0,0,-1;30"};
+    assert_true(fabs(mean_of(scene, desc, 4) - 1.0) < 1e-5);
+    weft_scene_free(scene);
+}
+
 /* Thin and solid glass count as reflection where the sky has factors of its own. */
 static void sky_counts_as_reflection_through_glass(void **state) {
     (void)state;
@@ -374,6 +391,7 @@ int main(void) {
         cmocka_unit_test(texture_without_metal_is_glass),
         cmocka_unit_test(partly_transparent_solid_is_the_same_from_afar),
         cmocka_unit_test(camera_inside_a_solid_sees_through_it),
+        cmocka_unit_test(profile_without_glass_has_one_side),
         cmocka_unit_test(sky_counts_as_reflection_through_glass),
         cmocka_unit_test(no_solid_makes_light),
         cmocka_unit_test(inside_light_is_absorbed_by_beer),
