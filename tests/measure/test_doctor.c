@@ -811,6 +811,22 @@ static void warnings_of_sample_assets_are_findings(void **state) {
     skip();
 }
 
+/* An extension whose name looks like a line of the reader is said as any other that weft does not read. */
+static void name_with_a_colon_is_a_name(void **state) {
+    (void)state;
+    char *text = json("{'asset':{'version':'2.0'},'extensionsUsed':['EXT_odd: name']," SQUARE_DATA
+                      ",'materials':[{}],'meshes':[{'primitives':[{%s}]}],'nodes':[{'mesh':0}]}\n",
+                      SQUARE_URI, ALL);
+    WeftDoctor *doctor = examine(text);
+    bool said = false;
+    for (int k = 0; k < weft_doctor_count(doctor); k++)
+        said |=
+            strstr(weft_doctor_finding(doctor, k)->words, "EXT_odd: name is used, which weft does not read") != NULL;
+    assert_true(said);
+    weft_doctor_close(doctor);
+    free(text);
+}
+
 /* Each kind of warning, in one asset: extensions, sets of coordinates, pictures, unknown values and numbers. */
 static void warnings_of_a_read_are_findings(void **state) {
     (void)state;
@@ -863,6 +879,7 @@ int main(void) {
         cmocka_unit_test(slices_of_light_sum_to_the_albedo_of_the_material),
         cmocka_unit_test(built_in_scenes_have_no_errors),
         cmocka_unit_test(sample_assets_of_the_shared_data_are_examined),
+        cmocka_unit_test(name_with_a_colon_is_a_name),
         cmocka_unit_test(warnings_of_a_read_are_findings),
         cmocka_unit_test(warnings_of_sample_assets_are_findings),
         cmocka_unit_test(doctor_refuses_broken_files),

@@ -124,6 +124,17 @@ static bool is_required(const WeftDoctor *doctor, const char *extension) {
     return false;
 }
 
+/* Returns true if the words of an ignored extension go on after its name with what weft leaves out of it. The name is the
+ * file's, and may hold anything. */
+static bool says_loss(const char *words) {
+    char name[64];
+    const char *end = strstr(words, ": ");
+    if (!end || end - words >= (long)sizeof name) return false;
+    snprintf(name, sizeof name, "%.*s", (int)(end - words), words);
+    const char *lost = material_extension_lost(name);
+    return lost && strcmp(end + 2, lost) == 0;
+}
+
 /* Returns true if the last finding, before which there were `count`, repeats another. */
 static bool is_repeated(const WeftDoctor *doctor, int count) {
     const WeftFinding *last = &doctor->items[count];
@@ -145,7 +156,7 @@ void doctor_hear(void *user, WeftMessage message, const char *text) {
     const int count = doctor->count;
     if (doctor->log.fn && message_result(message) != WEFT_INPUT) doctor->log.fn(doctor->log.user, message, text);
     const bool extension = response->kind == WEFT_FINDING_EXTENSION_IGNORED;
-    const bool loss = extension && strstr(words, ": ");  /* words say what is left out */
+    const bool loss = extension && says_loss(words);
     if (extension && is_required(doctor, words)) return; /* an error says so */
     if (response->kind == WEFT_FINDING_PART_IGNORED && row) {
         texture_found(doctor, row, place, words);
