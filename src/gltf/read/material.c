@@ -277,8 +277,9 @@ static Material material_read(const Field *field) {
  * picture of glossiness. */
 static void back_read(const Field *field, size_t index) {
     Asset *asset = field->asset;
-    const Field extras = field_member(field, "extras"), weft = field_member(&extras, "weft"),
-                back = field_member(&weft, "back");
+    const Field extras = field_member(field, "extras");
+    if (!json_is_object(extras.json)) return; /* another program's */
+    const Field weft = field_member(&extras, "weft"), back = field_member(&weft, "back");
     const json_t *further = json_object_get(json_object_get(back.json, "extras"), "weft");
     if (!back.json) return;
     if (!json_is_object(back.json)) {
