@@ -267,6 +267,25 @@ static void glass_keeps_its_color(void **state) {
     folder_clear("glass");
 }
 
+/* Filament's web build multiplies the reflection of metals by the strength of specular, so it gets a colour instead. */
+static void strength_of_specular_dims_no_metal_in_filament(void **state) {
+    (void)state;
+    asset_make("\"KHR_materials_specular\":{\"specularFactor\":0.25,\"specularColorFactor\":[1,0.5,2]}");
+    delivered(LIST("deliver", "asset.gltf", "--to", "three,filament", "-o", "dim", "--width", "32", "--spp", "1"));
+    json_t *root = glb_json("dim/asset-filament.glb");
+    const json_t *specular = part(json_array_get(json_object_get(root, "materials"), 0), "KHR_materials_specular");
+    const json_t *color = json_object_get(specular, "specularColorFactor");
+    assert_null(json_object_get(specular, "specularFactor"));
+    static const double expected[] = {0.25, 0.125, 0.5};
+    for (size_t c = 0; c < 3; c++) assert_true(fabs(json_number_value(json_array_get(color, c)) - expected[c]) < 1e-4);
+    json_decref(root);
+    root = glb_json("dim/asset-three.glb"); /* others get what the asset says */
+    specular = part(json_array_get(json_object_get(root, "materials"), 0), "KHR_materials_specular");
+    assert_true(fabs(number(specular, "specularFactor") - 0.25) < 1e-6);
+    json_decref(root);
+    folder_clear("dim");
+}
+
 static void unlit_material_keeps_its_color(void **state) {
     (void)state;
     char text[1024];
@@ -508,6 +527,7 @@ int main(void) {
         cmocka_unit_test(asset_keeps_all_that_the_target_reads),
         cmocka_unit_test(unlit_material_keeps_its_color),
         cmocka_unit_test(glass_keeps_its_color),
+        cmocka_unit_test(strength_of_specular_dims_no_metal_in_filament),
         cmocka_unit_test(cloth_is_fitted_for_each_target),
         cmocka_unit_test(levels_are_for_those_who_read_them),
         cmocka_unit_test(fine_normal_maps_get_levels),

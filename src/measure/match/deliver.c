@@ -302,6 +302,7 @@ static WeftResult file_finish(Delivering *self, WeftDelivery *delivery, WeftErro
         for (int k = 0; k < self->count; k++) {
             json_t *material = json_array_get(materials, (size_t)k);
             if (material && is_due(self, &self->parcels[k])) parcel_write(&self->parcels[k], material);
+            if (material) viewer_strength_fold(self->target, material);
         }
         delivery->extensions = extensions_text(rewrite.root);
         delivery->lost = viewer_losses_text(&self->losses, self->count);

@@ -3,8 +3,8 @@
  * As read in the loaders of three.js 0.187 (examples/jsm/loaders/GLTFLoader.js) and Babylon.js 9.28
  * (@babylonjs/loaders, glTF/2.0/Extensions), in google/filament 1.53.4 (libs/gltfio) and in KhronosGroup/glTF-Blender-IO.
  * Babylon.js's usual material takes the numbers of KHR_materials_fuzz for those of a sheen, so that the sheen beside the
- * fuzz, which is fitted to it, serves it better. Filament's build for the web ignores KHR_materials_anisotropy, and ends
- * where a material has KHR_materials_ior. */
+ * fuzz, which is fitted to it, serves it better. Filament's build for the web ignores KHR_materials_anisotropy, ends where
+ * a material has KHR_materials_ior, and dims metals by the factor of KHR_materials_specular, but not by its colour. */
 #include "measure/match/viewer_reads.h"
 
 #include <math.h>
@@ -26,6 +26,9 @@ static const WeftTarget targets[] = {
 };
 enum { TARGETS = sizeof targets / sizeof *targets };
 enum { KHRONOS = 1, THREE = 2, BABYLON = 4, FILAMENT = 8, BLENDER = 16, CORE = 32, VIEWERS = 31 };
+
+/* The targets that multiply the reflection of metals, too, by specularFactor, which is of dielectrics only. */
+enum { STRENGTH_DIMS_METALS = FILAMENT };
 
 /* The effect of leaving an extension out. */
 typedef enum Effect {
@@ -97,23 +100,38 @@ static bool is_idle(const json_t *object, const char *name) {
     return idle && !first;
 }
 
-/* Writes an index of refraction as the specular colour that has the same F0: KHR_materials_specular multiplies F0 by its
- * colour, which may exceed 1. */
-static WeftResult ior_to_color(Rewrite *rewrite, json_t *parts, const json_t *ior, WeftError *error) {
-    static const char name[] = "KHR_materials_specular";
-    const json_t *number = json_object_get(ior, "ior");
-    const double n = number ? json_number_value(number) : 1.5;
-    const double root = n >= 1.0 ? (n - 1.0) / (n + 1.0) : 1.0, scale = root * root / 0.04;
-    if (fabs(scale - 1.0) < 1e-4) return WEFT_OK;
-    if (!json_object_get(parts, name)) json_object_set_new(parts, name, json_object());
-    json_t *specular = json_object_get(parts, name), *color = json_array();
+static const char specular_name[] = "KHR_materials_specular";
+
+/* Multiplies the specular colour of KHR_materials_specular, which may exceed 1. */
+static void specular_color_scale(json_t *specular, double scale) {
+    json_t *color = json_array();
     const json_t *before = json_object_get(specular, "specularColorFactor");
     for (size_t c = 0; c < 3; c++) {
         const json_t *value = json_array_get(before, c);
         json_array_append_new(color, json_real(scale * (value ? json_number_value(value) : 1.0)));
     }
     json_object_set_new(specular, "specularColorFactor", color);
-    return rewrite_uses(rewrite, name, error);
+}
+
+/* Writes an index of refraction as the specular colour that has the same F0. */
+static WeftResult ior_to_color(Rewrite *rewrite, json_t *parts, const json_t *ior, WeftError *error) {
+    const json_t *number = json_object_get(ior, "ior");
+    const double n = number ? json_number_value(number) : 1.5;
+    const double root = n >= 1.0 ? (n - 1.0) / (n + 1.0) : 1.0, scale = root * root / 0.04;
+    if (fabs(scale - 1.0) < 1e-4) return WEFT_OK;
+    if (!json_object_get(parts, specular_name)) json_object_set_new(parts, specular_name, json_object());
+    specular_color_scale(json_object_get(parts, specular_name), scale);
+    return rewrite_uses(rewrite, specular_name, error);
+}
+
+void viewer_strength_fold(int target, json_t *material) {
+    if ((STRENGTH_DIMS_METALS >> target & 1u) == 0) return;
+    json_t *specular = json_object_get(json_object_get(material, "extensions"), specular_name);
+    const json_t *strength = json_object_get(specular, "specularFactor");
+    if (!strength) return;
+    const double scale = json_number_value(strength);
+    json_object_del(specular, "specularFactor");
+    if (scale < 1.0) specular_color_scale(specular, scale);
 }
 
 /* Deletes a member, and the object itself where that leaves it empty. */

@@ -21,6 +21,10 @@ typedef struct ViewerLosses {
 WeftResult viewer_limit(Rewrite *rewrite, int target, json_t *material, ViewerLosses *losses, bool *changed,
                         WeftError *error);
 
+/* Moves the factor of KHR_materials_specular into its colour where the target would dim metals by the factor. Both
+ * multiply F0, and none but the factor multiplies F90, which such a target computes of F0. */
+void viewer_strength_fold(int target, json_t *material);
+
 /* Removes from extensionsUsed and extensionsRequired the extensions that viewer_limit takes out. */
 void viewer_uses(Rewrite *rewrite, int target);
 

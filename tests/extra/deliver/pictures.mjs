@@ -17,13 +17,16 @@ export function truth(path) {
     });
 }
 
-// Returns what a console said: pictures by "THING LIGHT", and all else, a line each.
+// The browser may say that reading pixels back is slow.
+const browsers = /GPU stall due to ReadPixels/;
+
+// Returns what a console said: pictures by "THING LIGHT", and all else of the viewer, a line each.
 export function drawn(viewer) {
     const pictures = {}, lines = [];
     for (const [, said] of readFileSync(`${viewer}.log`, 'utf8').matchAll(/CONSOLE[^"]*"([^]*?)", source/g)) {
         const [word, thing, light, base64] = said.split(' ');
         if (word === 'PICTURE') pictures[`${thing} ${light}`] = floats(Buffer.from(base64, 'base64'));
-        else lines.push(said);
+        else if (!browsers.test(said)) lines.push(said);
     }
     return { pictures, lines };
 }

@@ -1,7 +1,7 @@
 // prepare.mjs - what the pages draw and what is compared with it: node prepare.mjs PROGRAM THING ...
 //
 // Delivers each thing to each viewer, into files.js, and has weft draw THING-LIGHT.npy, the truth. Runs in the folder for
-// the files.
+// the files. The page gets the decoder of KTX 2 that three.js ships, too.
 import { execFileSync } from 'child_process';
 import { readFileSync, writeFileSync } from 'fs';
 import { picture, things, viewers } from './table.mjs';
@@ -22,4 +22,6 @@ for (const name of names) {
             '--width', `${picture.width}`, '--height', `${picture.height}`, '--spp', '64', '--quiet',
             '-o', `${name}-${light}.npy`]);
 }
-writeFileSync('files.js', `window.files = ${JSON.stringify(files)};\n`);
+const decoder = ending => readFileSync(`node_modules/three/examples/jsm/libs/basis/basis_transcoder.${ending}`, 'base64');
+writeFileSync('files.js', `window.files = ${JSON.stringify(files)};
+window.basis = ${JSON.stringify({ js: decoder('js'), wasm: decoder('wasm') })};\n`);

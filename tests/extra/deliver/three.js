@@ -1,6 +1,16 @@
 // three.js: viewer(width, height) draws into a texture of floats.
 import * as THREE from "three";
 import {GLTFLoader} from "three/addons/loaders/GLTFLoader.js";
+import {KTX2Loader} from "three/addons/loaders/KTX2Loader.js";
+
+// Makes a loader that reads KTX 2. Its decoder is in the page, since it may not fetch files beside it.
+function gltfLoader(renderer) {
+    const {js, wasm} = window.basis, bytes = Uint8Array.from(atob(wasm), c => c.charCodeAt(0));
+    THREE.Cache.enabled = true;
+    THREE.Cache.add("file:basis/basis_transcoder.js", atob(js));
+    THREE.Cache.add("file:basis/basis_transcoder.wasm", bytes.buffer);
+    return new GLTFLoader().setKTX2Loader(new KTX2Loader().setTranscoderPath("basis/").detectSupport(renderer));
+}
 
 // Makes an environment of one colour.
 function evenSky(renderer, radiance) {
@@ -12,6 +22,7 @@ function evenSky(renderer, radiance) {
 
 export async function viewer(width, height) {
     const renderer = new THREE.WebGLRenderer();
+    const loader = gltfLoader(renderer);
     const target = new THREE.WebGLRenderTarget(width, height, {type: THREE.FloatType});
     return async (bytes, view, light) => {
         const camera = new THREE.PerspectiveCamera(view.degrees, width / height, 0.1, 100);
@@ -24,7 +35,7 @@ export async function viewer(width, height) {
             sun.position.set(...light.from);
             scene.add(sun);
         }
-        scene.add((await new GLTFLoader().parseAsync(bytes, "")).scene);
+        scene.add((await loader.parseAsync(bytes, "")).scene);
         renderer.setRenderTarget(target);
         renderer.setClearColor(0, 0);
         renderer.render(scene, camera);
