@@ -44,7 +44,7 @@ export const things = {
     gabardine: cloth("woven-gabardine", {three: [0.12, 0.06], babylon: [0.12, 0.06], filament: [0.12, 0.12]}),
     satin: cloth("woven-charmeuse", {three: [0.2, 0.31], babylon: [0.36, 0.4], filament: [0.42, 0.23]}),
     shantung: cloth("woven-shantung"),
-    linen: cloth("woven-linen"),
+    linen: cloth("woven-linen", {three: [0.1, 0.06], babylon: [0.12, 0.15], filament: [0.13, 0.11]}),
     flannel: cloth("woven-wool"),
     poplin: cloth("woven-poplin"),
     corduroy: cloth("woven-corduroy"),
