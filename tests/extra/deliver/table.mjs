@@ -45,7 +45,7 @@ export const things = {
     satin: cloth("woven-charmeuse", {three: [0.2, 0.31], babylon: [0.36, 0.4], filament: [0.42, 0.23]}),
     shantung: cloth("woven-shantung"),
     linen: cloth("woven-linen", {three: [0.1, 0.06], babylon: [0.12, 0.15], filament: [0.13, 0.11]}),
-    flannel: cloth("woven-wool"),
+    flannel: cloth("woven-wool", {three: [0.1, 0.08], babylon: [0.12, 0.07], filament: [0.12, 0.07]}),
     poplin: cloth("woven-poplin"),
     corduroy: cloth("woven-corduroy"),
     "woven-velvet": cloth("woven-velvet"),
