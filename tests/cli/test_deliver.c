@@ -1,6 +1,6 @@
 /* `weft deliver`: the files for each target, what they hold, how near they come, and that none is left half done.
  *
- * Labels: unsanitized */
+ * Labels: slow unsanitized */
 #include "run.h"
 
 #include <math.h>
