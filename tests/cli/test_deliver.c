@@ -345,19 +345,23 @@ static bool has_levels(const char *path) {
     return own > 0;
 }
 
-/* A triangle with a normal map, whose slopes are so steep, in checks of one texel. */
-static void bumps_make(double slope) {
-    enum { TEXELS = 16 };
+/* Makes a picture of `side` texels whose normals have that slope, in checks of one texel. */
+static void picture_make(const char *path, int side, double slope) {
     WeftImage image;
-    assert_int_equal(weft_image_create(TEXELS, TEXELS, 3, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
+    assert_int_equal(weft_image_create(side, side, 3, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
     const double z = 1.0 / sqrt(1.0 + slope * slope);
-    for (int k = 0; k < TEXELS * TEXELS; k++) {
-        const double sign = (k + k / TEXELS) % 2 ? 1.0 : -1.0, n[3] = {sign * slope * z, 0.0, z};
+    for (int k = 0; k < side * side; k++) {
+        const double sign = (k + k / side) % 2 ? 1.0 : -1.0, n[3] = {sign * slope * z, 0.0, z};
         for (int c = 0; c < 3; c++)
             ((unsigned char *)image.pixels)[3 * k + c] = (unsigned char)lrint(127.5 * (n[c] + 1.0));
     }
-    assert_int_equal(weft_image_write_as("bumps.png", &image, &(WeftImageWriting){.data = 1}, NULL), WEFT_OK);
+    assert_int_equal(weft_image_write_as(path, &image, &(WeftImageWriting){.data = 1}, NULL), WEFT_OK);
     weft_image_free(&image);
+}
+
+/* A triangle with a normal map whose slopes are so steep. */
+static void bumps_make(double slope) {
+    picture_make("bumps.png", 16, slope);
     static const char text[] =
         "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":0}]}],"
@@ -423,6 +427,50 @@ static void fine_normal_maps_get_levels(void **state) {
     free(text);
     json_decref(summary);
     folder_clear("bumps");
+}
+
+/* Replaces the textures and materials of bumps.gltf by these. */
+static void bumps_with(const char *rest) {
+    bumps_make(0.5);
+    json_t *root = json_of("bumps.gltf"), *own = json_loads(rest, 0, NULL);
+    assert_non_null(own);
+    assert_int_equal(json_object_update(root, own), 0);
+    char *text = json_dumps(root, 0);
+    file_make("bumps.gltf", text, strlen(text));
+    free(text);
+    json_decref(own);
+    json_decref(root);
+}
+
+static json_int_t texture_of(const json_t *root, size_t material, bool normal) {
+    const json_t *object = json_array_get(json_object_get(root, "materials"), material);
+    if (!normal) object = json_object_get(object, "pbrMetallicRoughness");
+    const json_t *info = json_object_get(object, normal ? "normalTexture" : "metallicRoughnessTexture");
+    return json_integer_value(json_object_get(info, "index"));
+}
+
+/* Two materials have the same first level of roughness, but below it that of their own normals. A third has all maps of
+ * the first. */
+static void materials_share_maps_that_are_equal_at_all_levels(void **state) {
+    (void)state;
+    bumps_with("{\"images\":[{\"uri\":\"gentle.png\"},{\"uri\":\"steep.png\"}],"
+               "\"textures\":[{\"source\":0},{\"source\":1}],\"meshes\":[{\"primitives\":["
+               "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":0},"
+               "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":1},"
+               "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":2}]}],\"materials\":["
+               "{\"normalTexture\":{\"index\":0},\"pbrMetallicRoughness\":{\"roughnessFactor\":0.3}},"
+               "{\"normalTexture\":{\"index\":1},\"pbrMetallicRoughness\":{\"roughnessFactor\":0.3}},"
+               "{\"normalTexture\":{\"index\":0},\"pbrMetallicRoughness\":{\"roughnessFactor\":0.3}}]}");
+    picture_make("gentle.png", 16, 0.35);
+    picture_make("steep.png", 16, 1.5);
+    delivered(LIST("deliver", "bumps.gltf", "--to", "three", "-o", "two", "--width", "32", "--spp", "1"));
+    json_t *root = glb_json("two/bumps-three.glb");
+    assert_true(texture_of(root, 0, true) != texture_of(root, 1, true));
+    assert_true(texture_of(root, 0, false) != texture_of(root, 1, false));
+    assert_true(texture_of(root, 0, true) == texture_of(root, 2, true));
+    assert_true(texture_of(root, 0, false) == texture_of(root, 2, false));
+    json_decref(root);
+    folder_clear("two");
 }
 
 /* Textures have mip levels of their own for viewers that read them, unless told otherwise. */
@@ -531,6 +579,7 @@ int main(void) {
         cmocka_unit_test(cloth_is_fitted_for_each_target),
         cmocka_unit_test(levels_are_for_those_who_read_them),
         cmocka_unit_test(fine_normal_maps_get_levels),
+        cmocka_unit_test(materials_share_maps_that_are_equal_at_all_levels),
         cmocka_unit_test(woven_asset_is_baked),
         cmocka_unit_test(senseless_delivery_is_refused),
         cmocka_unit_test(interrupted_delivery_leaves_nothing),

@@ -69,7 +69,7 @@ static json_t *texture_make(const Rewrite *rewrite, int image, int like) {
 }
 
 /* Appends an image of a texture, whose bytes are copied. Returns its index, or -1 with *error. */
-static int image_add(Rewrite *rewrite, const void *bytes, size_t size, int texture, WeftError *error) {
+static int image_add(Rewrite *rewrite, const void *bytes, size_t size, int texture, bool levels, WeftError *error) {
     json_t *images = list(rewrite->root, "images");
     NewImage *grown = realloc_array(rewrite->images, (size_t)rewrite->image_count + 1, sizeof *grown);
     unsigned char *copy = alloc_array(size, 1);
@@ -81,23 +81,24 @@ static int image_add(Rewrite *rewrite, const void *bytes, size_t size, int textu
         return -1;
     }
     memcpy(copy, bytes, size);
-    grown[rewrite->image_count++] = (NewImage){copy, size, image, texture};
+    grown[rewrite->image_count++] = (NewImage){copy, size, image, texture, levels};
     return image;
 }
 
 int rewrite_texture(Rewrite *rewrite, const void *png, size_t size, int like, WeftError *error) {
     json_t *textures = list(rewrite->root, "textures");
-    const int texture = (int)json_array_size(textures), image = image_add(rewrite, png, size, texture, error);
+    const int texture = (int)json_array_size(textures), image = image_add(rewrite, png, size, texture, false, error);
     if (image < 0 || json_array_append_new(textures, texture_make(rewrite, image, like)) == 0)
         return image < 0 ? -1 : texture;
     fail(error, WEFT_MESSAGE_MEMORY, rewrite->asset->name, NULL);
     return -1;
 }
 
-WeftResult rewrite_levels(Rewrite *rewrite, const void *ktx2, size_t size, int texture, WeftError *error) {
+/* Lets a texture name a KTX 2 file, whose bytes are copied, beside its plain picture. */
+static WeftResult levels_add(Rewrite *rewrite, Span ktx2, int texture, WeftError *error) {
     static const char name[] = "KHR_texture_basisu";
     json_t *object = json_array_get(json_object_get(rewrite->root, "textures"), (size_t)texture);
-    const int image = image_add(rewrite, ktx2, size, -1, error);
+    const int image = image_add(rewrite, ktx2.data, ktx2.size, texture, true, error);
     if (image < 0) return WEFT_RESOURCES;
     if (!json_object_get(object, "extensions")) json_object_set_new(object, "extensions", json_object());
     json_t *offer = json_object();
@@ -107,14 +108,18 @@ WeftResult rewrite_levels(Rewrite *rewrite, const void *ktx2, size_t size, int t
     return rewrite_uses(rewrite, name, error);
 }
 
-static WeftResult encode(const WeftImage *image, bool data, const char *name, char **bytes, size_t *size,
+/* Encodes an image as PNG, or `count` levels of it as KTX 2. bytes: to be freed, in any case. */
+static WeftResult encode(const WeftImage *levels, int count, bool data, const char *name, Span *bytes,
                          WeftError *error) {
-    const WeftImageWriting how = {.data = data};
-    *bytes = NULL;
-    FILE *stream = open_memstream(bytes, size);
+    const WeftImageWriting how = {.data = data, .levels = levels + 1, .level_count = count - 1};
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
     if (!stream) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
-    WeftResult result = image_write_png(stream, name, image, &how, error);
+    WeftResult result = count > 1 ? image_write_ktx2(stream, name, levels, &how, error)
+                                  : image_write_png(stream, name, levels, &(WeftImageWriting){.data = data}, error);
     if (fclose(stream) != 0 && result == WEFT_OK) result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    *bytes = (Span){(unsigned char *)text, size};
     return result;
 }
 
@@ -124,29 +129,57 @@ static const json_t *sampler_of(const Rewrite *rewrite, int texture) {
     return texture < 0 ? NULL : json_object_get(json_array_get(textures, (size_t)texture), "sampler");
 }
 
-/* Returns the texture of an image that was added with these bytes and the sampler of texture `like`, or -1. */
-static int added_before(const Rewrite *rewrite, const char *bytes, size_t size, int like) {
+static bool is_of(const NewImage *image, Span bytes) {
+    return image->size == bytes.size && memcmp(image->bytes, bytes.data, bytes.size) == 0;
+}
+
+/* Returns true if a texture names these levels beside its plain picture, or none where there are no bytes. */
+static bool has_levels(const Rewrite *rewrite, int texture, Span levels) {
+    for (int k = 0; k < rewrite->image_count; k++)
+        if (rewrite->images[k].levels && rewrite->images[k].texture == texture)
+            return levels.data && is_of(&rewrite->images[k], levels);
+    return !levels.data;
+}
+
+/* Returns the texture of an image that was added with these bytes and levels and the sampler of texture `like`, or -1. */
+static int added_before(const Rewrite *rewrite, Span png, Span levels, int like) {
     const json_t *sampler = sampler_of(rewrite, like);
     for (int k = 0; k < rewrite->image_count; k++) {
         const NewImage *old = &rewrite->images[k];
         const json_t *its = sampler_of(rewrite, old->texture);
-        if (old->size == size && memcmp(old->bytes, bytes, size) == 0 && (its == sampler || json_equal(its, sampler)))
+        if (!old->levels && is_of(old, png) && has_levels(rewrite, old->texture, levels) &&
+            (its == sampler || json_equal(its, sampler)))
             return old->texture;
     }
     return -1;
 }
 
+/* Sets *texture to one of this picture and these levels, which are added if they are not there. */
+static WeftResult texture_find(Rewrite *rewrite, Span png, Span levels, int like, int *texture, WeftError *error) {
+    *texture = added_before(rewrite, png, levels, like);
+    if (*texture >= 0) return WEFT_OK;
+    *texture = rewrite_texture(rewrite, png.data, png.size, like, error);
+    if (*texture < 0) return WEFT_RESOURCES;
+    return levels.data ? levels_add(rewrite, levels, *texture, error) : WEFT_OK;
+}
+
 WeftResult rewrite_image(Rewrite *rewrite, const WeftImage *image, bool data, int like, int *texture,
                          WeftError *error) {
-    char *bytes = NULL;
-    size_t size = 0;
-    WeftResult result = encode(image, data, rewrite->asset->name, &bytes, &size, error);
-    if (result == WEFT_OK) {
-        *texture = added_before(rewrite, bytes, size, like);
-        if (*texture < 0) *texture = rewrite_texture(rewrite, bytes, size, like, error);
-        if (*texture < 0) result = WEFT_RESOURCES;
-    }
-    free(bytes);
+    Span png = {0};
+    WeftResult result = encode(image, 1, data, rewrite->asset->name, &png, error);
+    if (result == WEFT_OK) result = texture_find(rewrite, png, (Span){0}, like, texture, error);
+    free((void *)png.data);
+    return result;
+}
+
+WeftResult rewrite_levels(Rewrite *rewrite, const WeftImage *levels, int count, int like, int *texture,
+                          WeftError *error) {
+    Span png = {0}, ktx2 = {0};
+    WeftResult result = encode(levels, 1, true, rewrite->asset->name, &png, error);
+    if (result == WEFT_OK && count > 1) result = encode(levels, count, true, rewrite->asset->name, &ktx2, error);
+    if (result == WEFT_OK) result = texture_find(rewrite, png, ktx2, like, texture, error);
+    free((void *)png.data);
+    free((void *)ktx2.data);
     return result;
 }
 

@@ -14,6 +14,7 @@ typedef struct NewImage {
     size_t size;
     int index;   /* index in "images" */
     int texture; /* index in "textures" */
+    bool levels; /* it is what KHR_texture_basisu of that texture names, not its plain picture */
 } NewImage;
 
 typedef struct Rewrite {
@@ -35,9 +36,10 @@ int rewrite_texture(Rewrite *rewrite, const void *png, size_t size, int like, We
  * numbers. An equal image that was added before with an equal sampler keeps its texture, so that uses share it. */
 WeftResult rewrite_image(Rewrite *rewrite, const WeftImage *image, bool data, int like, int *texture, WeftError *error);
 
-/* Appends a KTX 2 file to "images", whose bytes are copied, and lets a texture name it by KHR_texture_basisu beside its
- * plain picture. */
-WeftResult rewrite_levels(Rewrite *rewrite, const void *ktx2, size_t size, int texture, WeftError *error);
+/* Works as rewrite_image with data that has `count` levels: its texture names a KTX 2 file of all of them by
+ * KHR_texture_basisu beside a PNG of the first. It is shared only where all levels are equal. */
+WeftResult rewrite_levels(Rewrite *rewrite, const WeftImage *levels, int count, int like, int *texture,
+                          WeftError *error);
 
 /* Adds an extension to extensionsUsed unless it is there; the second function removes it from there and from
  * extensionsRequired. */

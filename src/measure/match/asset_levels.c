@@ -1,6 +1,5 @@
 /* asset_levels.c - mip levels of fine normal maps, whose roughness widens with what they do not resolve */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +7,6 @@
 #include "base/memory.h"
 #include "gltf/read/gltf.h"
 #include "gltf/save/rewrite.h"
-#include "image/codec.h"
 #include "image/halve.h"
 #include "measure/match/match_place.h"
 #include "scene/record/scene.h"
@@ -97,25 +95,6 @@ static WeftResult levels_make(FineMaps *maps, WeftError *error) {
     return result;
 }
 
-/* Adds a map to the file: a PNG of its first level, and a KTX 2 file of all. like: the number of the texture whose sampler
- * it has. */
-static WeftResult map_add(Rewrite *rewrite, const WeftImage *levels, int count, int like, int *texture,
-                          WeftError *error) {
-    const WeftImageWriting how = {.data = 1, .levels = levels + 1, .level_count = count - 1};
-    const int before = rewrite->image_count;
-    char *bytes = NULL;
-    size_t size = 0;
-    WeftResult result = rewrite_image(rewrite, levels, true, like, texture, error);
-    if (result != WEFT_OK || rewrite->image_count == before) return result; /* another material has the same */
-    FILE *stream = open_memstream(&bytes, &size);
-    if (!stream) return fail(error, WEFT_MESSAGE_MEMORY, rewrite->asset->name, NULL);
-    result = image_write_ktx2(stream, rewrite->asset->name, levels, &how, error);
-    if (fclose(stream) != 0 && result == WEFT_OK) result = fail(error, WEFT_MESSAGE_MEMORY, rewrite->asset->name, NULL);
-    if (result == WEFT_OK) result = rewrite_levels(rewrite, bytes, size, *texture, error);
-    free(bytes);
-    return result;
-}
-
 static int index_of(const json_t *info) { return info ? (int)json_integer_value(json_object_get(info, "index")) : -1; }
 
 /* Lets a material name the new maps: where it had no map of roughness it gets one in the place of the normal map. */
@@ -174,7 +153,7 @@ static WeftResult material_level(Rewrite *rewrite, const WeftScene *scene, int i
         const int like = index_of(json_object_get(object, "normalTexture"));
         result = levels_make(&maps, error);
         for (int m = 0; m < MAPS && result == WEFT_OK; m++)
-            result = map_add(rewrite, maps.images[m], maps.count, like, &textures[m], error);
+            result = rewrite_levels(rewrite, maps.images[m], maps.count, like, &textures[m], error);
         if (result == WEFT_OK) maps_name(object, textures);
         *changed = result == WEFT_OK;
     }
