@@ -55,7 +55,8 @@ WEFT_API WeftResult weft_deliver(const char *path, const char *out, int from, in
  *   alpha'^2 = mean of alpha^2 + 2 scale^2 (E s^2 - (E s)^2) / 2,  alpha = roughness^2
  *
  * (Marc Olano, Dan Baker, "LEAN Mapping", I3D 2010, for one width). Only where the deviation of slopes exceeds
- * WEFT_FINE_SLOPES, sides are multiples of 4, and a map of roughness has the place of the normal map or there is none. Both
+ * WEFT_FINE_SLOPES, sides are multiples of 4, and a map of roughness has the place of the normal map and is no finer, or
+ * there is none. Materials share maps that are equal at all levels; images that nothing names any more stay. Both
  * maps then are KTX 2 files by KHR_texture_basisu, with PNGs beside. *count: materials that were changed; if none, `out` is
  * written as it was. Fails as reading and writing a file do. */
 #define WEFT_FINE_SLOPES 0.15

@@ -473,6 +473,23 @@ static void materials_share_maps_that_are_equal_at_all_levels(void **state) {
     folder_clear("two");
 }
 
+/* A map of roughness with more texels than the normal map is left as it is, and so is the normal map. */
+static void finer_roughness_is_not_resampled(void **state) {
+    (void)state;
+    for (int finer = 0; finer < 2; finer++) {
+        bumps_with("{\"images\":[{\"uri\":\"bumps.png\"},{\"uri\":\"rough.png\"}],"
+                   "\"textures\":[{\"source\":0},{\"source\":1}],\"materials\":[{\"normalTexture\":{\"index\":0},"
+                   "\"pbrMetallicRoughness\":{\"metallicRoughnessTexture\":{\"index\":1}}}]}");
+        picture_make("rough.png", finer ? 64 : 16, 0.0);
+        delivered(LIST("deliver", "bumps.gltf", "--to", "three", "-o", "fine", "--width", "32", "--spp", "1"));
+        json_t *root = glb_json("fine/bumps-three.glb");
+        assert_true((texture_of(root, 0, false) == 1) == (finer == 1));
+        assert_true((texture_of(root, 0, true) == 0) == (finer == 1));
+        json_decref(root);
+        folder_clear("fine");
+    }
+}
+
 /* Textures have mip levels of their own for viewers that read them, unless told otherwise. */
 static void levels_are_for_those_who_read_them(void **state) {
     (void)state;
@@ -580,6 +597,7 @@ int main(void) {
         cmocka_unit_test(levels_are_for_those_who_read_them),
         cmocka_unit_test(fine_normal_maps_get_levels),
         cmocka_unit_test(materials_share_maps_that_are_equal_at_all_levels),
+        cmocka_unit_test(finer_roughness_is_not_resampled),
         cmocka_unit_test(woven_asset_is_baked),
         cmocka_unit_test(senseless_delivery_is_refused),
         cmocka_unit_test(interrupted_delivery_leaves_nothing),

@@ -117,7 +117,14 @@ static void maps_name(json_t *material, const int textures[MAPS]) {
     json_object_set_new(base, "roughnessFactor", json_real(1.0)); /* the map has all of it */
 }
 
-/* Returns true if the maps of a material can have levels of their own. */
+/* Returns true if an input has a map with more texels along a side than an image, which would lose them there. */
+static bool is_finer(const WeftScene *scene, const Input *input, const WeftImage *than) {
+    if (!input->texture) return false;
+    const WeftImage *image = &scene->images[scene->textures[input->texture - 1].image];
+    return image->width > than->width || image->height > than->height;
+}
+
+/* Returns true if the maps of a material can have levels of their own, without loss. */
 static bool is_suited(const WeftScene *scene, const Material *material, const json_t *object) {
     const Input *normal = &material->inputs[INPUT_normal], *rough = &material->inputs[INPUT_roughness];
     if (!normal->texture || material->unlit || !json_object_get(object, "normalTexture")) return false;
@@ -125,7 +132,8 @@ static bool is_suited(const WeftScene *scene, const Material *material, const js
     const Texture *texture = &scene->textures[normal->texture - 1];
     const WeftImage *image = &scene->images[texture->image];
     const bool sides = image->width % BLOCK == 0 && image->height % BLOCK == 0;
-    return sides && !texture->levels && !texture->nearest && (!rough->texture || place_same(normal, rough));
+    return sides && !texture->levels && !texture->nearest && (!rough->texture || place_same(normal, rough)) &&
+           !is_finer(scene, rough, image);
 }
 
 static WeftResult material_level(Rewrite *rewrite, const WeftScene *scene, int index, json_t *object, bool *changed,
