@@ -134,6 +134,7 @@ typedef struct WeftBaking {
     double metres;       /* width of a unit of texture coordinates; 0: 1 */
     const char *profile; /* of the viewer, which must read glTF's metallic; NULL: khronos */
     int levels; /* not 0: KTX 2 files with mip levels of their own in place of PNG, but of height and other face */
+    const WeftLog *log; /* weft_scene_bake: is warned of what the textures lack; NULL: none */
 } WeftBaking;
 
 /* The distance of the maps from the cloth, as seen from afar: the mean over five directions of light and an even sky of
@@ -163,9 +164,10 @@ WEFT_API WeftResult weft_material_bake(const WeftMaterial *material, const WeftC
                                        const char *folder, WeftBaked *found, WeftError *error);
 
 /* Bakes the weave of a material of a scene, 0 .. material_count - 1, into a folder as weft_material_bake does, and gives
- * the material the textures in its place. Fuzz and coat, which lie over the threads, stay as they are, and are left out of
- * the fit. metres of 0 are those of the weave. The scene has read the textures: the folder may be removed. Where it fails
- * the material may be either. Fails as weft_material_bake and weft_scene_assign_material do, and with WEFT_MESSAGE_DESC if
+ * the material the textures in its place. Fuzz, coat and emission stay as they are, and are left out of the fit. Dust, wear
+ * and textures of other inputs are left out of both, with a warning each (WeftBaking.log). metres of 0 are those of the
+ * weave. The scene has read the textures: the folder may be removed. Where it fails the material may be either. Fails as
+ * weft_material_bake and weft_scene_assign_material do, and with WEFT_MESSAGE_DESC if
  * another material has this one's number as its name, by which it would be assigned to as well. */
 WEFT_API WeftResult weft_scene_bake(WeftScene *scene, int material, const WeftBaking *baking, const char *folder,
                                     WeftBaked *found, WeftError *error);

@@ -60,6 +60,57 @@ static void textures_take_the_place_of_threads_below_the_fuzz(void **state) {
     weft_scene_free(scene);
 }
 
+static int input(const char *name) { return weft_material_input_find(name); }
+
+/* Counts warnings, and keeps the last. */
+typedef struct Warned {
+    int count;
+    char last[256];
+} Warned;
+
+static void warned(void *user, WeftMessage message, const char *text) {
+    Warned *self = user;
+    (void)message;
+    self->count++;
+    snprintf(self->last, sizeof self->last, "%s", text);
+}
+
+/* Bakes poplin below what is given. Returns what the fit found. */
+static WeftBaked bake_below(float emission, float dust, const char *to, WeftMaterial *baked, Warned *warnings) {
+    const WeftLog log = {.fn = warned, .user = warnings};
+    WeftBaking baking = small;
+    WeftBaked found = {0};
+    WeftError error;
+    WeftScene *scene = scene_of("preset:woven-poplin");
+    WeftMaterial material = material_of(scene);
+    baking.log = &log;
+    material.inputs[input("emission")].value[0] = emission;
+    material.inputs[input("emission_strength")].value[0] = 2.0f;
+    material.inputs[input("dust")].value[0] = dust;
+    assert_int_equal(weft_scene_put_material(scene, 0, &material, &error), WEFT_OK);
+    if (weft_scene_bake(scene, 0, &baking, to, &found, &error) != WEFT_OK) fail_msg("%s", error.text);
+    *baked = material_of(scene);
+    weft_scene_free(scene);
+    return found;
+}
+
+/* Emission stays; dust changes nothing of the textures and their numbers, and is said to be lost. */
+static void nothing_that_lies_over_threads_is_lost_in_silence(void **state) {
+    (void)state;
+    WeftMaterial glowing, dusty;
+    Warned none = {0}, one = {0};
+    const WeftBaked without = bake_below(1.0f, 0.0f, "glowing", &glowing, &none);
+    assert_float_equal(glowing.inputs[input("emission")].value[0], 1.0f, 1e-6f);
+    assert_float_equal(glowing.inputs[input("emission_strength")].value[0], 2.0f, 1e-6f);
+    assert_int_equal(none.count, 0);
+    const WeftBaked with = bake_below(0.0f, 0.8f, "dusty", &dusty, &one);
+    assert_true(with.sky <= without.sky && with.sky >= without.sky);
+    assert_float_equal(dusty.inputs[input("dust")].value[0], 0.0f, 0.0f);
+    assert_int_equal(system("cmp glowing/base_color.png dusty/base_color.png"), 0);
+    assert_int_equal(one.count, 1);
+    if (!strstr(one.last, "dust of 0.8 is not baked")) fail_msg("%s", one.last);
+}
+
 static void an_unwoven_material_is_refused(void **state) {
     (void)state;
     WeftError error;
@@ -78,6 +129,7 @@ static void an_unwoven_material_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(textures_take_the_place_of_threads_below_the_fuzz),
+                                       cmocka_unit_test(nothing_that_lies_over_threads_is_lost_in_silence),
                                        cmocka_unit_test(an_unwoven_material_is_refused)};
     return cmocka_run_group_tests_name("measure/scene_bake", tests, begin, end);
 }

@@ -1,4 +1,5 @@
 /* scene_bake.c - a woven material of a scene, baked in its place */
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -6,17 +7,51 @@
 #include "weft/match.h"
 #include "weft/weave.h"
 
-/* The layers over the threads that stay as they are: their amount, then their other numbers. A sheen is fitted with the
+/* What lies over the threads and stays as it is: the inputs of each layer, the amount first. A sheen is fitted with the
  * threads, since glTF has one sheen. */
-enum { LAYERS = 2, LAYER_INPUTS = 3 };
+enum { LAYERS = 3, LAYER_INPUTS = 9 };
 static const char *const layers[LAYERS][LAYER_INPUTS] = {{"fuzz", "fuzz_color", "fuzz_roughness"},
-                                                         {"clearcoat", "clearcoat_roughness", "coat_ior"}};
+                                                         {"clearcoat", "clearcoat_roughness", "clearcoat_normal",
+                                                          "coat_ior", "coat_color", "coat_darkening", "coat_anisotropy",
+                                                          "coat_anisotropy_direction"},
+                                                         {"emission", "emission_strength"}};
 
-/* Returns a woven material without the layers that stay. */
+/* The amounts of what textures do not have. */
+enum { DROPPED = 2 };
+static const char *const dropped[DROPPED] = {"dust", "wear"};
+
+/* Returns true if there is some of an input. */
+static bool is_there(const WeftMaterial *material, const char *amount) {
+    const float *value = material->inputs[weft_material_input_find(amount)].value;
+    WeftInputInfo info;
+    (void)weft_material_input_info(weft_material_input_find(amount), &info);
+    return value[0] > 0.0f || (info.kind == WEFT_INPUT_COLOR && (value[1] > 0.0f || value[2] > 0.0f));
+}
+
+static void take_off(WeftMaterial *material, const char *amount) {
+    WeftInput *input = &material->inputs[weft_material_input_find(amount)];
+    for (int c = 0; c < 3; c++) input->value[c] = 0.0f;
+    input->texture = 0;
+}
+
+/* Returns a woven material without what stays, and without what textures do not have. */
 static WeftMaterial without_layers(const WeftMaterial *woven) {
     WeftMaterial bare = *woven;
-    for (int l = 0; l < LAYERS; l++) bare.inputs[weft_material_input_find(layers[l][0])].value[0] = 0.0f;
+    for (int l = 0; l < LAYERS; l++) take_off(&bare, layers[l][0]);
+    for (int d = 0; d < DROPPED; d++) take_off(&bare, dropped[d]);
     return bare;
+}
+
+/* Warns of each input that the baked material lacks: what is dropped, and textures on anything but the layers. */
+static void warn_dropped(const WeftMaterial *woven, const WeftLog *log) {
+    const WeftMaterial bare = without_layers(woven);
+    for (int d = 0; d < DROPPED; d++)
+        if (is_there(woven, dropped[d]))
+            warn(log, WEFT_MESSAGE_DESC, "maps", "%s of %g is not baked", dropped[d],
+                 (double)woven->inputs[weft_material_input_find(dropped[d])].value[0]);
+    for (int k = 0; weft_material_input_name(k); k++)
+        if (bare.inputs[k].texture && weft_material_reads(&bare, k))
+            warn(log, WEFT_MESSAGE_DESC, "maps", "the texture of %s is not baked", weft_material_input_name(k));
 }
 
 /* Lays the layers of the woven material over the baked one. */
@@ -25,8 +60,8 @@ static WeftResult keep_layers(WeftScene *scene, int index, const WeftMaterial *w
     const WeftResult result = weft_scene_material(scene, index, &baked, error);
     if (result != WEFT_OK) return result;
     for (int l = 0; l < LAYERS; l++) {
-        if (!(woven->inputs[weft_material_input_find(layers[l][0])].value[0] > 0.0f)) continue;
-        for (int k = 0; k < LAYER_INPUTS; k++) {
+        if (!is_there(woven, layers[l][0])) continue;
+        for (int k = 0; k < LAYER_INPUTS && layers[l][k]; k++) {
             const int input = weft_material_input_find(layers[l][k]);
             baked.inputs[input] = woven->inputs[input];
         }
@@ -72,6 +107,7 @@ WeftResult weft_scene_bake(WeftScene *scene, int material, const WeftBaking *bak
     if (length < 0 || (size_t)length >= sizeof file)
         return fail(error, WEFT_MESSAGE_FILE_WRITE, "maps", "the name is too long");
     result = check_number(scene, material, number, error);
+    if (result == WEFT_OK) warn_dropped(&woven, baking->log);
     if (result == WEFT_OK) result = bake_cloth(scene, &woven, baking, folder, found, error);
     if (result == WEFT_OK) result = weft_scene_assign_material(scene, number, file, NULL, error);
     return result == WEFT_OK ? keep_layers(scene, material, &woven, error) : result;
