@@ -16,6 +16,7 @@ static const SearchAxis level_ranges[LEVEL_AXES] = {{0.0, 1.0}, {0.5, 2.0}, {0.0
 /* Contrast may be off by this factor for nothing; a change of metallic from one level to the next costs so much, since
  * viewers mix both levels. */
 static const double contrast_free = 1.2, metallic_price = 0.02;
+static const float cover_least = 1e-4f; /* a texel with less has no threads of its own */
 
 static float *plane_at(const MapLevel *level, MapPlane plane, size_t texel) { return level->planes[plane] + 4 * texel; }
 
@@ -26,13 +27,13 @@ typedef struct FirstLevel {
     bool holed;
 } FirstLevel;
 
-/* Adds the highlight of a texel to a matrix of squares. */
-static void facets_add(float *to, float roughness, float strength, float angle) {
+/* Adds the highlight of a texel to a matrix of squares, `part` times. */
+static void facets_add(float *to, float roughness, float strength, float angle, float part) {
     const float b = roughness * roughness, a = b + (1.0f - b) * strength * strength;
     const float x = cosf(angle), y = sinf(angle), aa = a * a, bb = b * b;
-    to[0] += aa * x * x + bb * y * y;
-    to[1] += (aa - bb) * x * y;
-    to[2] += aa * y * y + bb * x * x;
+    to[0] += part * (aa * x * x + bb * y * y);
+    to[1] += part * (aa - bb) * x * y;
+    to[2] += part * (aa * y * y + bb * x * x);
 }
 
 static void row_make(void *user, int row, int thread) {
@@ -43,15 +44,15 @@ static void row_make(void *user, int row, int thread) {
         const MapTexel t = map_texel(self->grid, column, row);
         const size_t at = (size_t)row * (size_t)self->grid->width + (size_t)column;
         const float cover = fmaxf(t.cover, 1e-6f), x = t.slope[0] / cover, y = t.slope[1] / cover;
-        const float n = 1.0f / sqrtf(1.0f + x * x + y * y);
+        const float n = t.cover / sqrtf(1.0f + x * x + y * y);
         float angle, *color = plane_at(self->level, PLANE_COLOR, at), *normal = plane_at(self->level, PLANE_NORMAL, at);
         const float strength = fminf(look->anisotropy * map_texel_stretch(&t, &angle), 1.0f);
         for (int c = 0; c < 3; c++)
             color[c] = map_texel_color(&t, c, look->shade, self->holed) * (self->holed ? t.cover : 1.0f);
         color[3] = t.cover;
-        normal[0] = x * n, normal[1] = y * n, normal[2] = n, normal[3] = t.open / cover;
+        normal[0] = x * n, normal[1] = y * n, normal[2] = n, normal[3] = t.open;
         facets_add(plane_at(self->level, PLANE_FACETS, at), fminf(look->roughness * t.roughness / cover, 1.0f),
-                   strength, angle);
+                   strength, angle, t.cover);
     }
 }
 
@@ -92,15 +93,32 @@ static void facets_read(const float *a, float *roughness, float *strength, float
     if (*angle < -0.25f * PI) *angle += PI;
 }
 
+/* What covers a texel: sums over its threads, and the cover that these are weighted by. */
+typedef struct Covered {
+    const float *color, *normal, *facets;
+    float cover;
+} Covered;
+
+/* Returns the threads of a texel. One without any is seen only where a viewer mixes it with others: it has those of the
+ * whole, so that it draws nothing of its own into them. */
+static Covered covered_of(const MapLevels *levels, const MapLevel *level, size_t at) {
+    if (plane_at(level, PLANE_COLOR, at)[3] < cover_least) level = &levels->items[levels->count - 1], at = 0;
+    const float *color = plane_at(level, PLANE_COLOR, at);
+    return (Covered){color, plane_at(level, PLANE_NORMAL, at), plane_at(level, PLANE_FACETS, at),
+                     fmaxf(color[3], cover_least)};
+}
+
 static LookTexel look_texel(const MapLevels *levels, const MapLevel *level, size_t at) {
-    const float *color = plane_at(level, PLANE_COLOR, at), *normal = plane_at(level, PLANE_NORMAL, at);
+    const Covered covered = covered_of(levels, level, at);
+    const float *color = plane_at(level, PLANE_COLOR, at);
     LookTexel t = {.light = 1.0f, .cover = levels->holed ? color[3] : 1.0f};
-    float angle;
+    float angle, facets[3];
     for (int c = 0; c < 3; c++) {
-        t.color[c] = color[c] / fmaxf(t.cover, 1e-6f);
-        t.normal[c] = normal[c];
+        t.color[c] = levels->holed ? covered.color[c] / covered.cover : color[c];
+        t.normal[c] = covered.normal[c] / covered.cover;
+        facets[c] = covered.facets[c] / covered.cover;
     }
-    facets_read(plane_at(level, PLANE_FACETS, at), &t.roughness, &t.stretch, &angle);
+    facets_read(facets, &t.roughness, &t.stretch, &angle);
     t.along[0] = cosf(angle), t.along[1] = sinf(angle);
     return t;
 }
@@ -212,13 +230,15 @@ WeftResult map_levels_find(const MapGrid *grid, const WeftMaterial *material, co
                             .color = {look->color[0], look->color[1], look->color[2]}};
         const MapLevel *last = &out->items[out->count - 1];
         const LookTexel whole = look_texel(out, last, 0);
+        const Covered covered = covered_of(out, last, 0);
+        const float open = covered.normal[3] / covered.cover;
         look_hold(&self, look);
         for (int k = 1; k < out->count; k++) {
             MapLevel *level = &out->items[k];
             blocks_choose(self.fit, out, level, places);
             blocks_center(self.fit, &whole);
             map_fit_near(self.fit, places, k < 3 ? FEW : MANY);
-            level_find(&self, level - 1, level, last->planes[PLANE_NORMAL][3]);
+            level_find(&self, level - 1, level, open);
             out->normal = fmaxf(out->normal, level->relief);
         }
     }
@@ -238,13 +258,15 @@ void map_level_texel(const MapLevels *levels, int level, int column, int row, un
     const MapLevel *from = &levels->items[level];
     const size_t at = (size_t)row * (size_t)from->width + (size_t)column;
     const LookTexel t = look_texel(levels, from, at);
-    const float *normal = plane_at(from, PLANE_NORMAL, at), scale = from->relief / fmaxf(levels->normal, 1e-6f);
-    const float x = scale * normal[0], y = scale * normal[1], n = 1.0f / sqrtf(x * x + y * y + normal[2] * normal[2]);
+    const Covered covered = covered_of(levels, from, at);
+    const float open = covered.normal[3] / covered.cover, scale = from->relief / fmaxf(levels->normal, 1e-6f);
+    const float x = scale * t.normal[0], y = scale * t.normal[1],
+                n = 1.0f / sqrtf(x * x + y * y + t.normal[2] * t.normal[2]);
     for (int c = 0; c < 3; c++) maps[0][c] = byte_of(tone_encode(fminf(from->color[c] * t.color[c], 1.0f)));
     maps[0][3] = byte_of(plane_at(from, PLANE_COLOR, at)[3]);
     maps[1][0] = byte_of(0.5f + 0.5f * x * n), maps[1][1] = byte_of(0.5f + 0.5f * y * n);
-    maps[1][2] = byte_of(0.5f + 0.5f * normal[2] * n);
-    maps[2][0] = byte_of(1.0f - from->occlusion * (1.0f - normal[3]));
+    maps[1][2] = byte_of(0.5f + 0.5f * t.normal[2] * n);
+    maps[2][0] = byte_of(1.0f - from->occlusion * (1.0f - open));
     maps[2][1] = byte_of(from->roughness * t.roughness);
     maps[2][2] = byte_of(from->metallic);
     maps[3][0] = byte_of(0.5f + 0.5f * t.along[0]), maps[3][1] = byte_of(0.5f + 0.5f * t.along[1]);

@@ -1,8 +1,9 @@
 /* map_levels.h - mip levels of the maps of a cloth, whose light is that of the threads at every level
  *
  * Means of texels shade otherwise than the texels do in the mean: their normals are flatter, and two crossed highlights
- * become one round one. So each level after the first has numbers of its own. Its texels are means of those before:
- * of colours by cover, of normals, and of the squares of roughness along and across fibres as a matrix
+ * become one round one. So each level after the first has numbers of its own. Its texels are means of those before,
+ * weighted by cover: of colours, of normals, of what is seen of the sky, and of the squares of roughness along and across
+ * fibres as a matrix
  *
  *   A = sum (a^2 t t^T + b^2 s s^T),  b = roughness^2,  a = b + (1 - b) anisotropy^2,  t: the longer axis, s: across it
  *
@@ -15,7 +16,8 @@
 
 enum { MAP_LEVELS_MOST = 14, MAP_LEVEL_MAPS = 4 };
 
-/* Four numbers a texel: colour times cover and cover; normal, and the visible fraction of the sky; A as xx, xy, yy. */
+/* Four numbers a texel, times cover: colour and 1; normal, and the visible fraction of the sky; A as xx, xy, yy. The
+ * colour of opaque cloth is black in gaps. */
 typedef enum MapPlane { PLANE_COLOR, PLANE_NORMAL, PLANE_FACETS, PLANES } MapPlane;
 
 typedef struct MapLevel {
