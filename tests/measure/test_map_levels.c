@@ -1,4 +1,5 @@
-/* Mip levels of the maps of a cloth with gaps: what its texels say of the threads is a mean of the threads alone */
+/* Mip levels of the maps of a cloth with gaps: what its texels say of the threads is a mean of the threads alone, and what a
+ * viewer does not read is not searched for */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -118,10 +119,20 @@ static void holes_draw_nothing_of_their_own(void **state) {
     weft_cloth_free(cloth);
 }
 
+static void what_a_viewer_does_not_read_is_not_searched_for(void **state) {
+    (void)state;
+    WeftCloth *cloth = open_cloth();
+    MapLevels levels = levels_of(cloth, "filament-sheen", true);
+    for (int k = 0; k < levels.count; k++) assert_true(fabs((double)levels.items[k].anisotropy - 1.0) < 1e-6);
+    map_levels_free(&levels);
+    weft_cloth_free(cloth);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_are_means_of_threads),
         cmocka_unit_test(holes_draw_nothing_of_their_own),
+        cmocka_unit_test(what_a_viewer_does_not_read_is_not_searched_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

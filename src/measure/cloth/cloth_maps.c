@@ -49,7 +49,7 @@ static unsigned char *texel_at(MapBake *b, int map, int column, int row) {
     return (unsigned char *)b->maps[map].pixels + pixel * (size_t)kinds[map].channels;
 }
 
-/* Writes a texel of all maps. Highlights of fibres are elongated across them. The anisotropy map is that of
+/* Writes a texel of all maps but the height. Highlights of fibres are elongated across them. The anisotropy map is that of
  * KHR_materials_anisotropy: this direction as a vector, and the strength with which roughness grows along it. */
 static void put_texel(MapBake *b, const MapTexel *t, int column, int row) {
     const float cover = fmaxf(t->cover, 1e-6f), x = t->slope[0] / cover, y = t->slope[1] / cover;
@@ -68,16 +68,23 @@ static void put_texel(MapBake *b, const MapTexel *t, int column, int row) {
     to = texel_at(b, MAP_ANISOTROPY, column, row);
     to[0] = byte_of(0.5f + 0.5f * cosf(angle)), to[1] = byte_of(0.5f + 0.5f * sinf(angle)),
     to[2] = byte_of(b->look.anisotropy * stretch);
+}
+
+static void put_height(MapBake *b, const MapTexel *t, int column, int row) {
     const float span = fmaxf(b->grid.weave.high - b->grid.weave.low, 1e-6f);
     *texel_at(b, MAP_HEIGHT, column, row) = byte_of((t->height - b->grid.weave.low) / span);
 }
+
+/* Returns the first map of which there is one picture; those before it have one for each level. */
+static int first_of(const MapBake *b) { return b->leveled ? MAP_HEIGHT : 0; }
 
 static void bake_row(void *user, int row, int thread) {
     MapBake *b = user;
     (void)thread;
     for (int column = 0; column < b->grid.width; column++) {
         const MapTexel t = map_texel(&b->grid, column, row);
-        put_texel(b, &t, column, row);
+        if (!b->leveled) put_texel(b, &t, column, row);
+        put_height(b, &t, column, row);
     }
 }
 
@@ -90,7 +97,7 @@ static void path_of(const MapBake *b, const char *folder, int map, char path[PAT
 
 static WeftResult write_maps(MapBake *b, const char *folder, WeftError *error) {
     WeftResult result = WEFT_OK;
-    for (int k = b->leveled ? MAP_HEIGHT : 0; k < MAP_COUNT && result == WEFT_OK; k++) {
+    for (int k = first_of(b); k < MAP_COUNT && result == WEFT_OK; k++) {
         char path[PATH_SIZE];
         path_of(b, folder, k, path);
         result = weft_image_write_as(path, &b->maps[k], &(WeftImageWriting){.data = k != MAP_COLOR}, error);
@@ -232,10 +239,10 @@ static MapGrid grid_of(const WeftCloth *cloth, bool back, const int threads[2], 
     return grid;
 }
 
-/* Bakes and writes the maps of a face. */
+/* Bakes and writes the maps of a face that have no levels of their own. */
 static WeftResult bake_face(MapBake *b, const char *folder, WeftError *error) {
     WeftResult result = WEFT_OK;
-    for (int k = 0; k < MAP_COUNT && result == WEFT_OK; k++)
+    for (int k = first_of(b); k < MAP_COUNT && result == WEFT_OK; k++)
         result = weft_image_create(b->grid.width, b->grid.height, kinds[k].channels, WEFT_PIXEL_U8, &b->maps[k], error);
     if (result == WEFT_OK) {
         parallel_for(0, b->grid.height, bake_row, b);

@@ -175,13 +175,24 @@ static double level_error(void *user, double *x, SearchCare care) {
            metallic_price * fabs(self->x[AXIS_METALLIC] - self->before);
 }
 
+/* Sets the ranges of a level's numbers; those that the profile does not read stay as they are. */
+static void ranges_set(const MapFit *fit, const double x[LEVEL_AXES], SearchAxis ranges[LEVEL_AXES]) {
+    SearchAxis all[AXES];
+    memcpy(all, map_axes, sizeof all);
+    map_fit_unread(fit, all);
+    for (int k = 0; k < LEVEL_AXES; k++) {
+        const SearchAxis *axis = &all[level_axes[k]];
+        ranges[k] = axis->high > axis->low ? level_ranges[k] : (SearchAxis){x[k], x[k]};
+    }
+}
+
 /* Finds the numbers of a level. before: those of the level before. mean: of the occlusion map. */
 static void level_find(LevelFit *self, const MapLevel *before, MapLevel *level, float mean) {
     double x[LEVEL_AXES] = {(double)before->metallic, (double)before->roughness, (double)before->anisotropy,
                             (double)before->relief},
            sky;
     Search search = {.axes = LEVEL_AXES, .error = level_error, .user = self, .grid = 24, .descents = 2, .most = 60};
-    memcpy(search.axis, level_ranges, sizeof level_ranges);
+    ranges_set(self->fit, x, search.axis);
     self->before = (double)before->metallic;
     self->fit->contrast_goal = map_fit_contrast(self->fit, true);
     search_run(&search, x, NULL);
