@@ -262,8 +262,9 @@ static const Option deliver_options[] = {
                  "textures of woven cloth have as many texels as a square of that side"),
     OPTION_TEXT(
         "--textures", "FORMAT", "auto",
-        "of woven cloth: png; ktx2 with mip levels of their own, and png beside it; auto: ktx2 for khronos, three "
-        "and filament"),
+        "of woven cloth, and of fine normal maps of an asset with their roughness: png, which leaves those of an "
+        "asset as they are; ktx2 with mip levels of their own, and png beside it; auto: ktx2 for khronos, three and "
+        "filament"),
     OPTION_HEADING("Sheets"),
     OPTION_WHOLE("--width", "PIXELS", "320", 32, 2048, "of one picture on a sheet"),
     OPTION_WHOLE("--spp", "N", "32", 1, 4096, "samples per pixel"),

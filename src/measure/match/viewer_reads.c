@@ -17,7 +17,8 @@
 
 /* The targets, in the order of their bits below. */
 static const WeftTarget targets[] = {
-    {"khronos", "any viewer that follows glTF's own text: nothing is taken out", "khronos", 1, "khronos"},
+    {"khronos", "any viewer that follows glTF's own text: nothing is taken out, fine normal maps get mip levels",
+     "khronos", 1, "khronos"},
     {"three", "three.js 0.187, GLTFLoader", "three", 1, "three"},
     {"babylon", "Babylon.js 9.28, PBRMaterial", "babylon", 0, "three"},
     {"filament", "Filament 1.53.4, its build for the web too: no anisotropy", "filament-sheen", 1, "filament-sheen"},
