@@ -119,7 +119,7 @@ static void holes_draw_nothing_of_their_own(void **state) {
     weft_cloth_free(cloth);
 }
 
-static void what_a_viewer_does_not_read_is_not_searched_for(void **state) {
+static void inputs_that_no_viewer_reads_are_not_searched_for(void **state) {
     (void)state;
     WeftCloth *cloth = open_cloth();
     MapLevels levels = levels_of(cloth, "filament-sheen", true);
@@ -132,7 +132,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_are_means_of_threads),
         cmocka_unit_test(holes_draw_nothing_of_their_own),
-        cmocka_unit_test(what_a_viewer_does_not_read_is_not_searched_for),
+        cmocka_unit_test(inputs_that_no_viewer_reads_are_not_searched_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -95,7 +95,7 @@ static WeftBaked bake_below(float emission, float dust, const char *to, WeftMate
 }
 
 /* Emission stays; dust changes nothing of the textures and their numbers, and is said to be lost. */
-static void nothing_that_lies_over_threads_is_lost_in_silence(void **state) {
+static void inputs_over_threads_are_kept_or_said_to_be_lost(void **state) {
     (void)state;
     WeftMaterial glowing, dusty;
     Warned none = {0}, one = {0};
@@ -129,7 +129,7 @@ static void an_unwoven_material_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(textures_take_the_place_of_threads_below_the_fuzz),
-                                       cmocka_unit_test(nothing_that_lies_over_threads_is_lost_in_silence),
+                                       cmocka_unit_test(inputs_over_threads_are_kept_or_said_to_be_lost),
                                        cmocka_unit_test(an_unwoven_material_is_refused)};
     return cmocka_run_group_tests_name("measure/scene_bake", tests, begin, end);
 }

@@ -14,7 +14,7 @@ typedef struct NewImage {
     size_t size;
     int index;   /* index in "images" */
     int texture; /* index in "textures" */
-    bool levels; /* it is what KHR_texture_basisu of that texture names, not its plain picture */
+    bool levels; /* the picture is what KHR_texture_basisu of the texture names, not the plain one */
 } NewImage;
 
 typedef struct Rewrite {

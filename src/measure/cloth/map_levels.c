@@ -93,7 +93,7 @@ static void facets_read(const float *a, float *roughness, float *strength, float
     if (*angle < -0.25f * PI) *angle += PI;
 }
 
-/* What covers a texel: sums over its threads, and the cover that these are weighted by. */
+/* The cover of a texel: sums over its threads, and the cover that these are weighted by. */
 typedef struct Covered {
     const float *color, *normal, *facets;
     float cover;

@@ -7,7 +7,7 @@
 #include "weft/match.h"
 #include "weft/weave.h"
 
-/* What lies over the threads and stays as it is: the inputs of each layer, the amount first. A sheen is fitted with the
+/* The inputs that lie over the threads and stay as they are: those of each layer, the amount first. A sheen is fitted with the
  * threads, since glTF has one sheen. */
 enum { LAYERS = 3, LAYER_INPUTS = 9 };
 static const char *const layers[LAYERS][LAYER_INPUTS] = {{"fuzz", "fuzz_color", "fuzz_roughness"},
