@@ -156,6 +156,7 @@ static int added_before(const Rewrite *rewrite, Span png, Span levels, int like)
 
 /* Sets *texture to one of this picture and these levels, which are added if they are not there. */
 static WeftResult texture_find(Rewrite *rewrite, Span png, Span levels, int like, int *texture, WeftError *error) {
+    if (!png.data) return fail(error, WEFT_MESSAGE_MEMORY, rewrite->asset->name, NULL);
     *texture = added_before(rewrite, png, levels, like);
     if (*texture >= 0) return WEFT_OK;
     *texture = rewrite_texture(rewrite, png.data, png.size, like, error);
