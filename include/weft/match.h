@@ -133,7 +133,8 @@ typedef struct WeftBaking {
     int pixels;          /* about pixels^2 texels, square ones, 16 .. 8192; 0: 1024 */
     double metres;       /* width of a unit of texture coordinates; 0: 1 */
     const char *profile; /* of the viewer, which must read glTF's metallic; NULL: khronos */
-    int levels; /* not 0: KTX 2 files with mip levels of their own in place of PNG, but of height and other face */
+    int levels;   /* not 0: KTX 2 files with mip levels of their own in place of PNG, but of height and other face */
+    int one_face; /* not 0: the front alone, for files that have no place for the other face */
     const WeftLog *log; /* weft_scene_bake: is warned of what the textures lack; NULL: none */
 } WeftBaking;
 

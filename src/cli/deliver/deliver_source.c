@@ -115,89 +115,40 @@ int source_load(Delivery *delivery, WeftScene **out) {
     return result;
 }
 
-/* The layers over the threads that stay as they are: their amount, then their other numbers. A sheen is fitted with the
- * threads, since glTF has one sheen. */
-enum { LAYERS = 2, LAYER_INPUTS = 3 };
-static const char *const layers[LAYERS][LAYER_INPUTS] = {{"fuzz", "fuzz_color", "fuzz_roughness"},
-                                                         {"clearcoat", "clearcoat_roughness", "coat_ior"}};
-
-/* Returns a woven material without the layers that stay. */
-static WeftMaterial without_layers(const WeftMaterial *woven) {
-    WeftMaterial bare = *woven;
-    for (int l = 0; l < LAYERS; l++) bare.inputs[weft_material_input_find(layers[l][0])].value[0] = 0.0f;
-    return bare;
+static void loss_add(void *user, WeftMessage message, const char *text) {
+    Delivery *delivery = user;
+    const char *line = loss_text("maps", message, text);
+    const size_t at = strlen(delivery->lost);
+    if (strstr(delivery->lost, line)) return; /* said for an earlier target */
+    snprintf(delivery->lost + at, sizeof delivery->lost - at, "%s%s", at ? "; " : "", line);
 }
 
-/* Lays these layers over the baked material. */
-static WeftResult layers_keep(WeftScene *scene, int index, const WeftMaterial *woven, WeftError *error) {
-    WeftMaterial baked;
-    WeftResult result = weft_scene_material(scene, index, &baked, error);
-    for (int l = 0; l < LAYERS && result == WEFT_OK; l++) {
-        if (!(woven->inputs[weft_material_input_find(layers[l][0])].value[0] > 0.0f)) continue;
-        for (int k = 0; k < LAYER_INPUTS; k++) {
-            const int input = weft_material_input_find(layers[l][k]);
-            baked.inputs[input] = woven->inputs[input];
-        }
-    }
-    return result == WEFT_OK ? weft_scene_put_material(scene, index, &baked, error) : result;
-}
-
-/* Refuses a material whose number is the name of another, by which that one would be assigned to as well. */
-static int number_check(const WeftScene *scene, int index, const char *number) {
-    for (int k = 0; k < weft_scene_info(scene).material_count; k++)
-        if (k != index && strcmp(weft_scene_material_name(scene, k), number) == 0)
-            return report(WEFT_INPUT,
-                          "material %d is woven, and material %d has the name \"%s\"; give that one another", index, k,
-                          number);
-    return 0;
-}
-
-/* Bakes the cloth of a material to textures in a folder, which holds material.json when all are made. */
-static WeftResult textures_bake(const WeftScene *scene, const WeftMaterial *material, const WeftBaking *baking,
-                                const char *folder, WeftError *error) {
-    const WeftMaterial bare = without_layers(material);
-    WeftYarn yarns[2];
-    WeftCloth *cloth = NULL;
-    const WeftDraft *draft = weft_scene_cloth(scene, material->cloth, yarns);
-    const WeftClothInfo info = weft_scene_cloth_info(scene, material->cloth);
-    WeftResult result = weft_cloth_create(draft, yarns, (unsigned)info.seed, &cloth, error);
-    if (result == WEFT_OK) result = weft_material_bake(&bare, cloth, baking, folder, NULL, error);
-    weft_cloth_free(cloth);
-    return result;
-}
-
-/* Gives a material whose cloth is woven the textures of it that are fitted to a profile, baked by the first target that
- * wants them. */
-static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftMaterial *material,
-                      const char *profile, bool levels) {
-    const WeftClothInfo info = weft_scene_cloth_info(scene, material->cloth);
-    const WeftBaking baking = {
-        .pixels = delivery->pixels, .metres = (double)info.metres, .profile = profile, .levels = levels};
+/* Gives a woven material the textures of its cloth. */
+static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftBaking *how) {
+    const WeftLog log = {loss_add, delivery};
+    WeftBaking baking = *how;
     WeftError error;
-    char folder[DELIVER_PATH], file[DELIVER_PATH + 32], number[16];
-    snprintf(number, sizeof number, "%d", index);
-    const int checked = number_check(scene, index, number);
-    if (checked != 0) return checked;
-    snprintf(folder, sizeof folder, "%.3900s/bake-%.32s-%d-%d", delivery->temporary, profile, levels, index);
-    snprintf(file, sizeof file, "%s/material.json", folder);
-    WeftResult result = WEFT_OK;
-    if (access(file, F_OK) != 0) result = textures_bake(scene, material, &baking, folder, &error);
-    if (result == WEFT_OK) result = weft_scene_assign_material(scene, number, file, NULL, &error);
-    if (result == WEFT_OK) result = layers_keep(scene, index, material, &error);
-    if (info.rotation > 0.0f || info.rotation < 0.0f)
-        snprintf(delivery->lost, sizeof delivery->lost, "weaves are not rotated: that of material %d by %g degrees",
-                 index, (double)info.rotation);
+    char folder[DELIVER_PATH], rotated[128];
+    WeftMaterial material;
+    WeftResult result = weft_scene_material(scene, index, &material, &error);
+    if (result != WEFT_OK || !material.cloth) return told(result, &error);
+    const WeftClothInfo info = weft_scene_cloth_info(scene, material.cloth);
+    baking.pixels = delivery->pixels;
+    baking.log = &log;
+    snprintf(folder, sizeof folder, "%.3900s/bake-%.32s-%d-%d-%d", delivery->temporary, baking.profile, baking.levels,
+             baking.one_face, index);
+    result = weft_scene_bake(scene, index, &baking, folder, NULL, &error);
+    snprintf(rotated, sizeof rotated, "weaves are not rotated: that of material %d by %g degrees", index,
+             (double)info.rotation);
+    if (info.rotation > 0.0f || info.rotation < 0.0f) loss_add(delivery, WEFT_MESSAGE_NONE, rotated);
     return told(result, &error);
 }
 
-int source_bake(Delivery *delivery, const char *profile, bool levels, WeftScene **out) {
-    WeftMaterial material;
-    WeftError error;
+int source_bake(Delivery *delivery, const WeftBaking *how, WeftScene **out) {
     int result = source_load(delivery, out);
     const int count = result == 0 ? weft_scene_info(*out).material_count : 0;
     for (int k = 0; k < count && result == 0; k++) {
-        result = told(weft_scene_material(*out, k, &material, &error), &error);
-        if (result == 0 && material.cloth) result = cloth_bake(delivery, *out, k, &material, profile, levels);
+        result = cloth_bake(delivery, *out, k, how);
         if (result == 0 && delivery_heed(delivery, (double)(k + 1) / count)) result = WEFT_INTERRUPTED;
     }
     return result;
@@ -225,7 +176,7 @@ int source_write(Delivery *delivery, const TargetFile *file, char path[DELIVER_P
         profile = weft_profile_name(delivery->from);
     snprintf(path, DELIVER_PATH, "%.3900s/source-%.32s-%d.glb", delivery->temporary, profile, levels);
     if (access(path, F_OK) == 0) return 0; /* made for an earlier target */
-    int result = source_bake(delivery, profile, levels, &scene);
+    int result = source_bake(delivery, &(WeftBaking){.profile = profile, .levels = levels, .one_face = 1}, &scene);
     if (result == 0) result = told(weft_scene_save(scene, path, &error), &error);
     weft_scene_free(scene);
     return result;

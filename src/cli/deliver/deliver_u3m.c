@@ -24,13 +24,17 @@ typedef struct Losses {
     FILE *lines;
 } Losses;
 
-static void loss_note(void *user, WeftMessage message, const char *text) {
-    const Losses *losses = user;
-    const size_t path = strnlen(losses->path, 200); /* of which no more is said */
-    if (strncmp(text, losses->path, path) == 0) text += path;
+const char *loss_text(const char *subject, WeftMessage message, const char *text) {
+    const size_t length = strnlen(subject, 200); /* of which no more is said */
+    if (strncmp(text, subject, length) == 0) text += length;
     const char *said = strstr(text, weft_message_text(message));
     if (said) text = said + strlen(weft_message_text(message));
-    fprintf(losses->lines, "%s\n", text + strspn(text, ": "));
+    return text + strspn(text, ": ");
+}
+
+static void loss_note(void *user, WeftMessage message, const char *text) {
+    const Losses *losses = user;
+    fprintf(losses->lines, "%s\n", loss_text(losses->path, message, text));
 }
 
 /* Writes the material of a scene, and collects what the file lacks of it. */
@@ -49,7 +53,7 @@ static int material_write(WeftScene *scene, const char *path, char **lost) {
 
 int u3m_write(Delivery *delivery, TargetFile *file, const char *path) {
     WeftScene *scene = NULL;
-    int result = source_bake(delivery, file_target(file).fit, false, &scene);
+    int result = source_bake(delivery, &(WeftBaking){.profile = file_target(file).fit}, &scene);
     const int count = result == 0 ? weft_scene_info(scene).material_count : 1;
     if (count != 1)
         result = report(WEFT_USAGE, "--to u3m: a U3M holds one material, and %.300s has %d; deliver each by itself",

@@ -83,8 +83,12 @@ SourceKind source_kind(const char *what);
 /* Reads what is delivered as a scene, which is what the pictures are compared with. May be called again. */
 int source_load(Delivery *delivery, WeftScene **out);
 
-/* Reads what is delivered, with its cloth baked and fitted to a profile. levels: textures have mip levels of their own. */
-int source_bake(Delivery *delivery, const char *profile, bool levels, WeftScene **out);
+/* Reads what is delivered, with its cloth baked. how: the profile, and whether textures have mip levels of their own and
+ * the cloth has one face. What the textures lack is added to `lost`. */
+int source_bake(Delivery *delivery, const WeftBaking *how, WeftScene **out);
+
+/* Returns what a warning says, without its subject and the text of its message. */
+const char *loss_text(const char *subject, WeftMessage message, const char *text);
 
 /* Makes the glTF file that the file of a target is made from, and sets its path, and the profile that its numbers are
  * meant for. */

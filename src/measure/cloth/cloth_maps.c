@@ -192,8 +192,9 @@ static void write_face(FILE *stream, const MapBake *b, const char *place) {
             (double)look->sheen_roughness);
 }
 
-/* Writes a material file (docs/materials.md) with the maps of both faces. place: their size in texture coordinates. */
-static WeftResult write_material(const MapBake faces[2], const char *place, const char *folder, WeftError *error) {
+/* Writes a material file (docs/materials.md) with the maps of one face or both. place: their size in texture coordinates. */
+static WeftResult write_material(const MapBake faces[2], int count, const char *place, const char *folder,
+                                 WeftError *error) {
     char path[4096];
     OutputFile file;
     snprintf(path, sizeof path, "%.4000s/material.json", folder);
@@ -201,9 +202,12 @@ static WeftResult write_material(const MapBake faces[2], const char *place, cons
     if (result != WEFT_OK) return result;
     fprintf(file.stream, "{\n");
     write_face(file.stream, &faces[0], place);
-    fprintf(file.stream, ",\n    \"back\": {\n");
-    write_face(file.stream, &faces[1], place);
-    fprintf(file.stream, "\n    }\n}\n");
+    if (count == 2) {
+        fprintf(file.stream, ",\n    \"back\": {\n");
+        write_face(file.stream, &faces[1], place);
+        fprintf(file.stream, "\n    }");
+    }
+    fprintf(file.stream, "\n}\n");
     return output_commit(&file, error);
 }
 
@@ -289,12 +293,12 @@ static WeftResult level_face(MapBake *b, const WeftMaterial *material, const Wef
 
 /* The viewer that maps are made for. */
 typedef struct MapViewer {
-    int profile, pixels;
+    int profile, pixels, faces;
     double metres;
     bool leveled;
 } MapViewer;
 
-/* Fits and writes both faces of a cloth, for a viewer. The other face, which glTF has no place for, has no levels. */
+/* Fits and writes the faces of a cloth, for a viewer. The other face, which glTF has no place for, has no levels. */
 static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *const cloths[2], const MapViewer *viewer,
                              const char *folder, WeftBaked *found, WeftError *error) {
     const WeftCloth *front = cloths[0];
@@ -309,7 +313,7 @@ static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *cons
     WeftResult result = WEFT_OK;
     sides_of(viewer->pixels, size, viewer->leveled ? BLOCK : 1, sides);
     snprintf(place, sizeof place, "\"scale\": [%.9g, %.9g]", viewer->metres / size[0], viewer->metres / size[1]);
-    for (int k = 0; k < 2 && result == WEFT_OK; k++) {
+    for (int k = 0; k < viewer->faces && result == WEFT_OK; k++) {
         MapBake *b = &faces[k];
         *b = (MapBake){.grid = grid_of(cloths[k], k == 1, threads, sides),
                        .name = k ? back_name : "",
@@ -323,7 +327,7 @@ static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *cons
     }
     if (result != WEFT_OK) return result;
     if (found) *found = baked[0];
-    return write_material(faces, place, folder, error);
+    return write_material(faces, viewer->faces, place, folder, error);
 }
 
 WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *cloth, const WeftBaking *baking,
@@ -331,6 +335,7 @@ WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *clo
     const MapViewer viewer = {.profile = profile_of(baking, error),
                               .pixels = baking->pixels ? baking->pixels : 1024,
                               .metres = fabs(baking->metres) <= 0.0 ? 1.0 : baking->metres,
+                              .faces = baking->one_face ? 1 : 2,
                               .leveled = baking->levels != 0};
     const int pixels = viewer.pixels;
     const double metres = viewer.metres;
