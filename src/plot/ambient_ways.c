@@ -363,7 +363,7 @@ void ambient_model_light(const AmbientModel *m, Vec3 n, float reference[3], floa
     put(s.reference, reference);
     for (int way = WAY_KHRONOS; way <= WAY_MATERIALX; way++) {
         const Rgb e = m->own[way] ? s.albedo : rgb_scale(color, stack_albedo(&m->engines[way], p.o).e);
-        put(rgb_mul(e, look_mean(&s, filters[way])), by[way]);
+        put(rgb_mul(e, look_mean(&s, (int)filters[way])), by[way]);
     }
     put(rgb_mul(color, weft_light(m, &p)), by[WAY_WEFT]);
     put(rgb_mul(color, streak_light(m, &s, p.o.z)), by[WAY_BABYLON_OPENPBR]);
