@@ -482,6 +482,7 @@ class WeftBaking(Structure):
         ("metres", c_double),
         ("profile", c_char_p),
         ("levels", c_int),
+        ("one_face", c_int),
         ("log", POINTER(WeftLog)),
     ]
 

@@ -121,13 +121,14 @@ static void weights_make(AmbientModel *m) {
 static void engine_make(AmbientModel *m, int way) {
     Surface s = {.roughness = 1.0f, .specular = 1.0f, .sheen = 1.0f, .reflectance = 0.5f};
     Choices c = choices_unmade();
-    m->own[way] = !ways[way].profile || m->lobe.id != LOBE_CHARLIE_NEUBELT;
+    m->own[way] = !ways[way].profile;
     if (m->own[way]) return;
     s.sheen_color = s.sheen_second = s.specular_color = rgb_grey(1.0f);
     s.sheen_roughness = sqrtf(m->alpha);
     s.nap_direction = s.anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
     c.profile = choice_find(CHOICE_profile, ways[way].profile);
     stack_make(&m->engines[way], &s, &c, (TableRef){.kind = TABLE_NONE});
+    m->own[way] = m->engines[way].sheen.lobe.id != m->lobe.id;
 }
 
 AmbientModel *ambient_model_make(const AmbientMap *map, const WeftPlotModel *model) {

@@ -2,13 +2,13 @@
 #include "view/render/renderer.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <epoxy/gl.h>
 
-#include "base/equal.h"
 #include "base/steady_clock.h"
 #include "view/render/renderer_state.h"
 
@@ -311,9 +311,11 @@ bool renderer_add_task(Renderer *self, const Task *task) {
 
 /* Returns true if two pictures have one size and show one scene through one camera. */
 static bool same_view(const RenderedFrame *a, const RenderedFrame *b) {
-    bool same = a->texture && b->texture && a->scene == b->scene && a->width == b->width && a->height == b->height;
-    for (int k = 0; k < 3; k++) same = same && is_equal(a->eye[k], b->eye[k]) && is_equal(a->target[k], b->target[k]);
-    return same && is_equal(a->fov, b->fov);
+    const bool same =
+        a->texture && b->texture && a->scene == b->scene && a->width == b->width && a->height == b->height;
+    float off = fabsf(a->fov - b->fov);
+    for (int k = 0; k < 3; k++) off += fabsf(a->eye[k] - b->eye[k]) + fabsf(a->target[k] - b->target[k]);
+    return same && off <= 0.0f;
 }
 
 bool renderer_take_frame(Renderer *self, RenderedFrame *rendered) {
