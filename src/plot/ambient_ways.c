@@ -20,6 +20,9 @@
 enum { RINGS = 96, SECTORS = 128 }; /* of the reference */
 enum { CELLS_WIDTH = 128, CELLS_HEIGHT = 64, SMALL_WIDTH = 256, WEIGHTS = 512, LOOKS = 128, STREAKS = 6 };
 
+/* The lobe that the engines' formulas of E are for. */
+static const char of_engines[] = "charlie-neubelt";
+
 /* The profile with the way's formula of E; NULL: E is the lobe's. */
 static const struct {
     const char *name, *profile;
@@ -121,14 +124,13 @@ static void weights_make(AmbientModel *m) {
 static void engine_make(AmbientModel *m, int way) {
     Surface s = {.roughness = 1.0f, .specular = 1.0f, .sheen = 1.0f, .reflectance = 0.5f};
     Choices c = choices_unmade();
-    m->own[way] = !ways[way].profile;
+    m->own[way] = !ways[way].profile || strcmp(weft_lobe_info(m->lobe.id)->id, of_engines) != 0;
     if (m->own[way]) return;
     s.sheen_color = s.sheen_second = s.specular_color = rgb_grey(1.0f);
     s.sheen_roughness = sqrtf(m->alpha);
     s.nap_direction = s.anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
     c.profile = choice_find(CHOICE_profile, ways[way].profile);
     stack_make(&m->engines[way], &s, &c, (TableRef){.kind = TABLE_NONE});
-    m->own[way] = m->engines[way].sheen.lobe.id != m->lobe.id;
 }
 
 AmbientModel *ambient_model_make(const AmbientMap *map, const WeftPlotModel *model) {
