@@ -50,7 +50,7 @@ static void bake(const WeftMaterial *material, const WeftCloth *cloth, const cha
     static const char *const faces[] = {"", "back-"};
     WeftError error;
     for (int k = 0; k < KINDS; k++) {
-        const WeftBaking baking = {.pixels = side, .profile = profile, .levels = k == KINDS - 1};
+        const WeftBaking baking = {.pixels = side, .profile = profile, .levels = k == KINDS - 1, .one_face = 1};
         if (weft_material_bake(material, cloth, &baking, kinds[k], NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     }
     for (int m = 0; m < 8; m++) {

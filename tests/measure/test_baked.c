@@ -85,7 +85,8 @@ static void check_preset(const char *name) {
     WeftError error;
     snprintf(path, sizeof path, "preset:%s", name);
     if (weft_material_read_woven(path, &material, &cloth, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    if (weft_material_bake(&material, cloth, &(WeftBaking){.pixels = SIDE}, "maps", &fit, &error) != WEFT_OK)
+    if (weft_material_bake(&material, cloth, &(WeftBaking){.pixels = SIDE, .one_face = 1}, "maps", &fit, &error) !=
+        WEFT_OK)
         fail_msg("%s", error.text);
     print_message("%-16s", name);
     const Found found = find(path, 16.0 * texel_of(cloth) * WIDTH / (2.0 * sin(BEND)));
@@ -132,7 +133,7 @@ static void levels_keep_the_light_from_afar(void **state) {
     WeftCloth *cloth;
     WeftBaked fit;
     WeftError error;
-    const WeftBaking baking = {.pixels = SIDE, .profile = "three", .levels = 1};
+    const WeftBaking baking = {.pixels = SIDE, .profile = "three", .levels = 1, .one_face = 1};
     if (weft_material_read_woven(path, &material, &cloth, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     if (weft_material_bake(&material, cloth, &baking, "levels", &fit, &error) != WEFT_OK) fail_msg("%s", error.text);
     const double zoom = texel_of(cloth) * WIDTH / (2.0 * sin(BEND));
