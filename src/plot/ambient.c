@@ -22,7 +22,7 @@ static void sphere_pixel(const Spheres *s, int row, int column) {
     const float radius = 0.47f * (float)s->side;
     const float x = ((float)column + 0.5f - 0.5f * (float)s->side) / radius;
     const float y = (0.5f * (float)s->side - (float)row - 0.5f) / radius, rest = 1.0f - x * x - y * y;
-    float light[CELLS][3];
+    float light[CELLS][3] = {{0.0f}};
     if (rest > 0.0f) ambient_model_light(s->model, vec3(x, y, sqrtf(rest)), light[0], light + 1);
     for (int k = 0; k < CELLS; k++) {
         for (int c = 0; c < 3 && rest > 0.0f; c++)

@@ -59,6 +59,16 @@ static bool is_sharp(const RandomMaterial *material, Place place) {
 static bool is_stretched(const RandomMaterial *material, Place place) {
     return is_polygon(place) && strstr(material->text, "\"anisotropy\":");
 }
+/* Returns true if an input is in the material and is not 0. */
+static bool has_some(const RandomMaterial *material, const char *key) {
+    const char *at = strstr(material->text, key);
+    float value = 1.0f;
+    if (at && sscanf(at + strlen(key), " %f", &value) != 1) value = 1.0f; /* a texture */
+    return at && value > 0.0f;
+}
+static bool is_solid(const RandomMaterial *material, Place place) {
+    return has_some(material, "\"transmission\":") && has_some(material, "\"thickness\":");
+}
 static const Exception exceptions[] = {
     {is_woven, 1.0, 0.03, "points of threads are chosen at random, others in each engine: only means agree"},
     {is_blended, 1.0, 0.02,
@@ -67,6 +77,7 @@ static const Exception exceptions[] = {
     {is_masked, 0.02, 0.06, "outlines of holes are not left out"},
     {has_polygon, 0.04, 0.05, "24 to 32 points stand for a polygon: 1 to 5 % for highlights (docs/area-lights.md)"},
     {is_sharp, 0.06, 0.15, "the same: up to 14 % for coats and silk"},
+    {is_solid, 1.0, 1.0, "the raster engine draws solid glass as a thin sheet (docs/materials.md)"},
     {is_stretched, 1.0, 1.0, "the same: streaks below roughness 0.15 fade, since they are cones"},
 };
 enum { EXCEPTIONS = sizeof exceptions / sizeof *exceptions };

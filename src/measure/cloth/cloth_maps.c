@@ -308,7 +308,7 @@ static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *cons
     const bool holed = is_holed(material, front);
     char place[96];
     int sides[2];
-    MapBake faces[2];
+    MapBake faces[2] = {{.name = ""}, {.name = ""}};
     WeftBaked baked[2];
     WeftResult result = WEFT_OK;
     sides_of(viewer->pixels, size, viewer->leveled ? BLOCK : 1, sides);
