@@ -24,6 +24,9 @@ typedef struct Cloth {
     WeftPlotModel model;
 } Cloth;
 
+/* Returns true if a kind of figure takes too long under sanitizers: that of a map, which has tests of its own. */
+static inline bool is_long(int kind) { return kind == WEFT_PLOT_AMBIENT && getenv("WEFT_TEST_SHORT"); }
+
 static inline void cloth_of_lobe(Cloth *cloth, const char *id, const char *param, const char *value) {
     WeftError error;
     assert_int_equal(weft_lobe_init(id, &cloth->lobe, &error), WEFT_OK);
