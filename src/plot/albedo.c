@@ -54,10 +54,7 @@ static bool angle_series(Making *making, WeftPlotPanel *panel, int model) {
 /* Adds the curves of a model that has a roughness. */
 static bool rough_series(Making *making, WeftPlotPanel *panel, int model, float view) {
     float *x, *y;
-    Rough rough;
-    bool has_one = rough_make(&making->desc->models[model], 0.5f, &rough);
-    rough_free(&rough);
-    if (!has_one) return true;
+    if (!rough_is_there(&making->desc->models[model])) return true;
     const int count = making->desc->quick ? ROUGHS / 4 : ROUGHS;
     if (!making_series(making, panel, model, count, &x, &y)) return false;
     for (int k = 0; k < count; k++) x[k] = (float)(k + 1) / (float)count;

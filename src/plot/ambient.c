@@ -8,9 +8,8 @@
 
 enum { SIDE = 64, SIDE_QUICK = 20, SIDE_ROUGH = 14, ROUGHS = 9, ROUGHS_QUICK = 3, CELLS = 1 + AMBIENT_WAYS };
 
-/* One sphere of so many pixels across, reference first, and the sums of its rows. */
+/* The spheres of a model, of so many pixels across, and the sums of their rows. */
 typedef struct Spheres {
-    const Making *making;
     const AmbientModel *model;
     int side;
     float *values;         /* CELLS spheres beside each other, or NULL */
@@ -40,9 +39,9 @@ static void sphere_row(void *user, int row, int thread) {
 
 /* Draws the spheres of a model, and computes the error of each way: sum |difference| / sum of the reference, to a tenth of
  * a per cent. */
-static bool spheres_make(const Making *making, const AmbientMap *map, const WeftPlotModel *model, int side,
-                         float *values, double error[AMBIENT_WAYS]) {
-    Spheres s = {.making = making, .side = side, .values = values};
+static bool spheres_make(const AmbientMap *map, const WeftPlotModel *model, int side, float *values,
+                         double error[AMBIENT_WAYS]) {
+    Spheres s = {.side = side, .values = values};
     AmbientModel *made = ambient_model_make(map, model);
     s.model = made;
     s.sums = calloc((size_t)side, sizeof *s.sums);
@@ -67,7 +66,7 @@ static bool picture_make(Making *making, const AmbientMap *map, int model) {
     WeftPlotPanel *panel =
         making_panel(making, WEFT_PLOT_PICTURE, "%s: as it is, and as engines light it", making_label(making, model));
     float *values = making_grid(making, panel, CELLS * side, side, 3);
-    if (!values || !spheres_make(making, map, &making->desc->models[model], side, values, error)) return false;
+    if (!values || !spheres_make(map, &making->desc->models[model], side, values, error)) return false;
     panel->colored = 1;
     panel->cell_count = CELLS;
     snprintf(panel->cells[0], sizeof panel->cells[0], "reference");
@@ -95,7 +94,7 @@ static bool curves_make(Making *making, const AmbientMap *map, int model) {
         double error[AMBIENT_WAYS];
         Rough rough;
         const bool well = rough_make(&making->desc->models[model], roughness, &rough) &&
-                          spheres_make(making, map, &rough.model, SIDE_ROUGH, NULL, error);
+                          spheres_make(map, &rough.model, SIDE_ROUGH, NULL, error);
         rough_free(&rough);
         if (!well) return false;
         for (int way = 0; way < AMBIENT_WAYS; way++) {
@@ -108,13 +107,6 @@ static bool curves_make(Making *making, const AmbientMap *map, int model) {
     return true;
 }
 
-static bool has_roughness(const WeftPlotModel *model) {
-    Rough rough;
-    const bool well = rough_make(model, 0.5f, &rough);
-    rough_free(&rough);
-    return well;
-}
-
 WeftResult kind_ambient(Making *making) {
     const int count = making->desc->count;
     AmbientMap *map;
@@ -122,7 +114,7 @@ WeftResult kind_ambient(Making *making) {
     if (result == WEFT_OK && !making_panels(making, 2 * count, 1)) result = making_short(making);
     for (int k = 0; k < AMBIENT_WAYS; k++) making_legend(making, ambient_way_name(k));
     for (int n = 0; n < count && result == WEFT_OK; n++)
-        if (!picture_make(making, map, n) || (has_roughness(&making->desc->models[n]) && !curves_make(making, map, n)))
+        if (!picture_make(making, map, n) || (rough_is_there(&making->desc->models[n]) && !curves_make(making, map, n)))
             result = making_short(making);
     snprintf(making->data->note, sizeof making->data->note,
              "sums over 12288 directions; tone-mapped (PBR Neutral); the lobe alone, without a base");

@@ -140,8 +140,7 @@ AmbientModel *ambient_model_make(const AmbientMap *map, const WeftPlotModel *mod
     m->map = map;
     m->model = model;
     lobe_tables_make_for(LOBE_LTC_FIBRE_HALF);
-    m->lobe = lobe_default(id);
-    for (int k = 0; k < weft_lobe_info(id)->param_count; k++) lobe_set(&m->lobe, k, model->lobe->params[k]);
+    lobe_of(model->lobe, &m->lobe);
     m->alpha = fminf(fmaxf(m->lobe.params[0], 0.01f), 1.0f);
     weights_make(m);
     for (int way = 0; way < AMBIENT_WAYS; way++) engine_make(m, way);

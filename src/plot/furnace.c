@@ -59,8 +59,7 @@ static bool of_lobe(Making *making, WeftPlotPanel *panel, const WeftLobe *given,
                         .walks = making->desc->quick ? WALKS / 4 : WALKS};
     AlbedoTable *table = malloc(sizeof *table);
     bool ready = table && making_series_space(making, panel, LAYER_COUNT);
-    work.lobe = lobe_default(given->lobe);
-    for (int k = 0; k < weft_lobe_info(given->lobe)->param_count; k++) lobe_set(&work.lobe, k, given->params[k]);
+    lobe_of(given, &work.lobe);
     work.roughness = roughness_of(&work.lobe);
     work.table = table;
     for (int layer = 0; ready && layer < LAYER_COUNT; layer++) {

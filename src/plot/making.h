@@ -28,6 +28,9 @@ WeftResult kind_samples(Making *making);
 WeftResult kind_difference(Making *making);
 WeftResult kind_ambient(Making *making);
 
+/* Returns why a kind of figure is not for a model, or NULL. */
+const char *kind_refuses(WeftPlotKind kind, const WeftPlotModel *model);
+
 WeftResult making_short(const Making *making);
 
 /* Allocates panels, at most `most` in all, in so many columns. */
@@ -95,6 +98,9 @@ typedef struct Rough {
  * in any case. */
 bool rough_make(const WeftPlotModel *model, float roughness, Rough *out);
 void rough_free(Rough *rough);
+
+/* Returns true if the model has a roughness. */
+bool rough_is_there(const WeftPlotModel *model);
 
 /* Sets high, and low of a logarithmic axis, of the y of all panels of one form, so that they show their series and can
  * be compared. Outliers are cut off: curves thirty times as high as the next lower one, unless they are more than half,

@@ -49,6 +49,14 @@ const char *weft_plot_kind_name(int kind) { return kind >= 0 && kind < WEFT_PLOT
 
 const char *weft_plot_kind_help(int kind) { return kind >= 0 && kind < WEFT_PLOT_KINDS ? kinds[kind].help : NULL; }
 
+const char *kind_refuses(WeftPlotKind kind, const WeftPlotModel *model) {
+    if (kind == WEFT_PLOT_SAMPLES && !model->lobe) return "only lobes are sampled by themselves";
+    if (kind == WEFT_PLOT_AMBIENT && !model->lobe) return "engines light only lobes alone";
+    if (kind == WEFT_PLOT_AMBIENT && weft_lobe_info(model->lobe->lobe)->traits & WEFT_LOBE_REFERENCE)
+        return "a lobe that walks at random has no table";
+    return NULL;
+}
+
 /* Returns the fault of a descriptor, or NULL. */
 static const char *complaint(const WeftPlotDesc *desc) {
     if ((int)desc->kind < 0 || desc->kind >= WEFT_PLOT_KINDS) return "there is no such kind";
@@ -63,14 +71,9 @@ static const char *complaint(const WeftPlotDesc *desc) {
     if ((int)desc->channel < 0 || desc->channel > WEFT_PLOT_BLUE) return "there is no such channel";
     if (desc->width < 0 || desc->height < 0 || desc->width > WEFT_PLOT_SIDE_MAX || desc->height > WEFT_PLOT_SIDE_MAX)
         return "a side has up to 8192 pixels";
-    for (int k = 0; k < desc->count; k++) {
-        const WeftLobe *lobe = desc->models[k].lobe;
-        if (desc->kind == WEFT_PLOT_SAMPLES && !lobe) return "only lobes are sampled by themselves";
-        if (desc->kind == WEFT_PLOT_AMBIENT && !lobe) return "engines light only lobes alone";
-        if (desc->kind == WEFT_PLOT_AMBIENT && weft_lobe_info(lobe->lobe)->traits & WEFT_LOBE_REFERENCE)
-            return "a lobe that walks at random has no table";
-    }
-    return NULL;
+    const char *fault = NULL;
+    for (int k = 0; k < desc->count && !fault; k++) fault = kind_refuses(desc->kind, &desc->models[k]);
+    return fault;
 }
 
 /* Makes the title: that of the descriptor, else the kind's, with the label of a single model. */

@@ -7,6 +7,7 @@
 #include "base/fail.h"
 #include "base/pi.h"
 #include "image/codec.h"
+#include "plot/making.h"
 #include "plot/vector.h"
 
 static const char style[] =
@@ -123,12 +124,8 @@ static void table_put(Vector *page, const WeftPlotDesc *desc) {
 static bool serves(WeftPlotDesc *desc, WeftPlotModel *chosen) {
     int count = 0;
     if (desc->kind == WEFT_PLOT_DIFFERENCE) return desc->count == 2;
-    if (desc->kind != WEFT_PLOT_SAMPLES && desc->kind != WEFT_PLOT_AMBIENT) return true;
-    for (int k = 0; k < desc->count; k++) {
-        const WeftLobe *lobe = desc->models[k].lobe;
-        const bool walks = lobe && weft_lobe_info(lobe->lobe)->traits & WEFT_LOBE_REFERENCE;
-        if (lobe && !(walks && desc->kind == WEFT_PLOT_AMBIENT)) chosen[count++] = desc->models[k];
-    }
+    for (int k = 0; k < desc->count; k++)
+        if (!kind_refuses(desc->kind, &desc->models[k])) chosen[count++] = desc->models[k];
     desc->models = chosen;
     desc->count = count;
     return count > 0;

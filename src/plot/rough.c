@@ -30,3 +30,10 @@ void rough_free(Rough *rough) {
     weft_reflection_free(rough->reflection);
     rough->reflection = NULL;
 }
+
+bool rough_is_there(const WeftPlotModel *model) {
+    Rough rough;
+    const bool there = rough_make(model, 0.5f, &rough);
+    rough_free(&rough);
+    return there;
+}

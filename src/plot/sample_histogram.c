@@ -85,8 +85,8 @@ static double test(const WeftLobe *given, float view, int count) {
     ChiSquare found = {.p = (double)NAN};
     BsdfView look;
     if (!model) return (double)NAN;
-    Lobe lobe = lobe_default(given->lobe);
-    for (int k = 0; k < weft_lobe_info(given->lobe)->param_count; k++) lobe_set(&lobe, k, given->params[k]);
+    Lobe lobe;
+    lobe_of(given, &lobe);
     bsdf_of_lobe(model, &lobe, true);
     model->rows = 1;
     model->values[0] = lobe.params[0];

@@ -161,8 +161,7 @@ FN void compose_base(Stack *m, Lobe lobe, Rgb single, Rgb multiple) {
     m->specular.normal = 0.0f;
     m->base_fresnel = BASE_FRESNEL_NONE;
     m->retro = 0.0f; /* threads lean: half a turn would make another lobe of them */
-    m->glass = 0.0f;
-    m->glass_taken = 0.0f;
+    stack_without_glass(m);
     m->diffuse.lobe = lobe;
     m->diffuse.f0 = single;
     m->diffuse.f90 = multiple;

@@ -24,6 +24,5 @@ FN void cycles_principled_stack(Stack *m, const Surface *s) {
     metallic_with(m, s, fuzz, LAYER_ALBEDO_VIEW, BASE_FRESNEL_LEAST);
     m->transmission = 0.0f; /* Blender's reader of glTF knows no diffuse transmission */
     m->transmitted = rgb_grey(0.0f);
-    m->glass_taken = 0.0f;
-    m->glass = 0.0f; /* of many bounces between facets, which is not what this stack has */
+    stack_without_glass(m); /* many bounces between facets are not part of this stack */
 }

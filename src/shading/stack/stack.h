@@ -207,6 +207,14 @@ FN void slot_even(Slot *s, Lobe lobe, Rgb color, Rgb second, float weight) {
     slot_make(s, lobe, color, second, weight, weight * rgb_mean(color), weight * rgb_mean(color));
 }
 
+/* Takes the glass out, whose light then stays with the lobes below the interface. */
+FN void stack_without_glass(Stack *m) {
+    m->glass = 0.0f;
+    m->glass_taken = 0.0f;
+    m->glass_tint = rgb_grey(0.0f);
+    m->glass_p = 0.0f;
+}
+
 FN void stack_clear(Stack *m) {
     SLOTS(CLEAR_SLOT)
     m->base_fresnel = BASE_FRESNEL_NONE;
@@ -227,10 +235,7 @@ FN void stack_clear(Stack *m) {
     m->transmission = 0.0f;
     m->transmitted = rgb_grey(0.0f);
     m->transmitted_p = 0.0f;
-    m->glass = 0.0f;
-    m->glass_taken = 0.0f;
-    m->glass_tint = rgb_grey(0.0f);
-    m->glass_p = 0.0f;
+    stack_without_glass(m);
     m->glass_lost = 0.0f;
     m->layer = LAYER_ADDITIVE;
     m->combine = LAYER_BY_MAX;

@@ -93,7 +93,7 @@ typedef struct Chunk {
     int inside[ROW_CAPACITY]; /* of the path that arrives, as in Paths, if `solids` */
     Row side;                 /* 1 if the viewer sees the triangle's front, else -1 */
     Row *horizon_normal;      /* geometric or visible: light from below its plane does not count */
-    Row uv_edge[2][2];        /* differences of texture coordinates along two edges, on a woven material */
+    Row uv_edge[2][2];        /* differences of texture coordinates along two edges, for threads and levels */
     ClothLooks cloth_points;  /* where and how finely a woven material is looked up */
     ClothGuide cloth_guide;   /* of camera rays, if first hits are recorded */
     Row frame[3][3];          /* x, y, z of the shading frame */

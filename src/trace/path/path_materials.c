@@ -41,6 +41,7 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
     prepared->material.inputs[INPUT_thickness].texture = 0; /* the mesh bounds the glass */
     prepared->material.inputs[INPUT_attenuation_distance].texture = 0;
     prepared->material.inputs[INPUT_attenuation_color].texture = 0;
+    if (material->cloth) prepared->material.inputs[INPUT_transmission].texture = 0; /* threads are no glass */
     prepared->untextured = material_plain(material);
     prepared->choices = material_choices(material);
     for (int input = 0; input < INPUT_COUNT; input++) {
@@ -50,7 +51,6 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
         prepared->leveled[of->texcoord] |= of->texture && texture_levels(&scene->textures[of->texture - 1]);
     }
     prepared->cloth = scene_cloth_of(scene, material);
-    if (prepared->cloth) prepared->material.inputs[INPUT_transmission].texture = 0; /* threads are no glass */
     prepared->textured |= prepared->cloth != NULL;
     prepared->texcoords[0] |= prepared->cloth != NULL;
     prepared->sheen_e = sheen_e;

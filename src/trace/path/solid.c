@@ -21,8 +21,7 @@ SolidGlass solid_take(Stack *stack, const Surface *surface, const SolidTable *ta
     const bool dark = !(rgb_max3(diffuse->f0) + rgb_max3(diffuse->f90) + through > 0.0f);
     diffuse->normal = dark ? 0.0f : max(diffuse->normal - clear, 1e-30f);
     stack->transmitted_p = min(stack->transmitted_p * (diffuse->normal + clear) / max(diffuse->normal, 1e-30f), 1.0f);
-    stack->glass = stack->glass_p = 0.0f;
-    stack->glass_tint = rgb_grey(0.0f);
+    stack_without_glass(stack);
     return glass;
 }
 
@@ -91,10 +90,9 @@ SolidView solid_see(const SolidGlass *glass, const Stack *stack, const StackView
                       .inside = inside,
                       .n = inside ? 1.0f / glass->ior : glass->ior,
                       .facets = ggx_stretched(glass->ax, glass->ay),
-                      .scale = 1.0f};
+                      .scale = table_scale(glass->table, inside, min(glass->ax, glass->ay), view->o.z)};
     ggx_view(&seen.facets, view->o, &seen.facets_view);
     seen.p = sampled_p(&seen);
-    if (glass->table) seen.scale = table_scale(glass->table, inside, min(glass->ax, glass->ay), view->o.z);
     return seen;
 }
 

@@ -36,7 +36,7 @@ typedef struct SolidGlass {
     Rgb f0, f90;      /* colours of the highlight */
     Rgb interface_f0; /* as in the stack */
     float interface_f90;
-    const SolidTable *table; /* borrowed; NULL: what facets lose stays lost */
+    const SolidTable *table; /* borrowed */
 } SolidGlass;
 
 /* A stack whose glass was taken, and the glass, seen from wo. */
@@ -52,7 +52,7 @@ typedef struct SolidView {
     float p;     /* the share of the samples that the glass draws */
 } SolidView;
 
-/* Takes the glass out of a stack, which then only reflects. surface: that of the stack. table: may be NULL. */
+/* Takes the glass out of a stack, which then only reflects. surface: that of the stack. */
 SolidGlass solid_take(Stack *stack, const Surface *surface, const SolidTable *table);
 
 /* Fills the table of a glass, whose own is not read: for all roughnesses if that is textured, else about its own. */
