@@ -94,39 +94,35 @@ static Across across_of(const Mesh *hair, uint32_t vertex, Vec3 root) {
         .root = {(int8_t)lrintf(127.0f * root.x), (int8_t)lrintf(127.0f * root.y), (int8_t)lrintf(127.0f * root.z), 0}};
 }
 
-/* Fills the vertices of a mesh of hair. Returns false if memory is short. */
-static bool fill_across(const WeftScene *scene, int m, Across *to) {
-    const Mesh *hair = &scene->meshes[m], *cloth = &scene->meshes[scene->hairs[m - scene_own_meshes(scene)].mesh];
-    uint32_t *roots = alloc_array(hair->vertex_count / HAIR_VERTICES, sizeof *roots);
-    if (!roots) return false;
-    hair_roots(scene, m, roots);
-    for (uint32_t k = 0; k < hair->vertex_count; k++)
-        to[k] = across_of(hair, k, normal_of(cloth, roots[k / HAIR_VERTICES]));
-    free(roots);
-    return true;
+/* Fills the vertices of a mesh of hair. */
+static void fill_across(const WeftScene *scene, int m, Across *to) {
+    const Hair *hair = &scene->hairs[m - scene_own_meshes(scene)];
+    const Mesh *mesh = &scene->meshes[m];
+    for (uint32_t fibre = 0; fibre < mesh->vertex_count / HAIR_VERTICES; fibre++) {
+        const Vec3 root = normal_of(&scene->meshes[hair->mesh], hair->roots[fibre]);
+        for (uint32_t k = fibre * HAIR_VERTICES; k < (fibre + 1) * HAIR_VERTICES; k++) to[k] = across_of(mesh, k, root);
+    }
 }
 
 /* Uploads the widths of the fibres of hair; other vertices have none. */
 static WeftResult upload_across(GlMeshes *self, const WeftScene *scene, WeftError *error) {
     if (!scene->hair_count) return WEFT_OK;
     Across *all = alloc_array(self->vertex_count, sizeof *all);
-    bool made = all != NULL;
+    if (!all) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     size_t at = self->own_count;
-    for (int m = scene_own_meshes(scene); made && m < scene_light_meshes(scene); m++) {
-        made = fill_across(scene, m, all + at);
+    for (int m = scene_own_meshes(scene); m < scene_light_meshes(scene); m++) {
+        fill_across(scene, m, all + at);
         at += scene->meshes[m].vertex_count;
     }
-    if (made) {
-        glGenBuffers(1, &self->across);
-        glBindBuffer(GL_ARRAY_BUFFER, self->across);
-        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(self->vertex_count * sizeof *all), all, GL_STATIC_DRAW);
-        glVertexAttribPointer(AT_ACROSS, 4, GL_SHORT, GL_TRUE, sizeof *all, NULL);
-        glVertexAttribPointer(AT_ROOT, 3, GL_BYTE, GL_TRUE, sizeof *all, (const void *)offsetof(Across, root));
-        glEnableVertexAttribArray(AT_ACROSS);
-        glEnableVertexAttribArray(AT_ROOT);
-    }
+    glGenBuffers(1, &self->across);
+    glBindBuffer(GL_ARRAY_BUFFER, self->across);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(self->vertex_count * sizeof *all), all, GL_STATIC_DRAW);
+    glVertexAttribPointer(AT_ACROSS, 4, GL_SHORT, GL_TRUE, sizeof *all, NULL);
+    glVertexAttribPointer(AT_ROOT, 3, GL_BYTE, GL_TRUE, sizeof *all, (const void *)offsetof(Across, root));
+    glEnableVertexAttribArray(AT_ACROSS);
+    glEnableVertexAttribArray(AT_ROOT);
     free(all);
-    return made ? gl_check(error, "hair") : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    return gl_check(error, "hair");
 }
 
 static WeftResult upload_indices(GlMeshes *self, const WeftScene *scene, WeftError *error) {

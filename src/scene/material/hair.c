@@ -17,9 +17,8 @@ typedef struct Growth {
     const WeftScene *scene;
     const Mesh *on;
     const Material *material;
-    Mesh *mesh;      /* has room for all fibres; NULL where only their roots are asked for */
-    uint32_t *roots; /* the triangles that fibres stand on, one after the other, or NULL */
-    const uint32_t *roots_end;
+    Mesh *mesh;       /* has room for all fibres */
+    uint32_t *roots;  /* as in Hair, with as much room */
     uint64_t numbers; /* the stream of random numbers */
 } Growth;
 
@@ -86,7 +85,6 @@ static Root draw_root(Growth *growth, const uint32_t *index) {
 /* Writes a vertex of a fibre, and returns its number. */
 static uint32_t put_vertex(const Growth *growth, Vec3 point, Vec3 normal, const Root *root) {
     Mesh *mesh = growth->mesh;
-    if (!mesh) return 0;
     const size_t k = mesh->vertex_count;
     memcpy(mesh->position + 3 * k, &point, sizeof point);
     memcpy(mesh->normal + 3 * k, &normal, sizeof normal);
@@ -97,7 +95,6 @@ static uint32_t put_vertex(const Growth *growth, Vec3 point, Vec3 normal, const 
 }
 
 static void put_triangle(const Growth *growth, uint32_t a, uint32_t b, uint32_t c) {
-    if (!growth->mesh) return;
     uint32_t *index = growth->mesh->index + 3 * (size_t)growth->mesh->triangle_count++;
     index[0] = a, index[1] = b, index[2] = c;
 }
@@ -155,16 +152,9 @@ static void grow_triangle(Growth *growth, uint32_t triangle) {
     for (uint32_t k = 0; k < count; k++) {
         Root root = draw_root(growth, growth->on->index + 3 * (size_t)triangle);
         if (draw(growth) >= material_opacity(growth->scene, growth->material, root.uv, root.color[3])) continue;
-        if (growth->roots < growth->roots_end) *growth->roots++ = triangle;
-        if (growth->mesh) color_root(growth, &root);
+        growth->roots[growth->mesh->vertex_count / HAIR_VERTICES] = triangle;
+        color_root(growth, &root);
         grow_fibre(growth, &root);
-    }
-}
-
-static void grow_triangles(Growth *growth, int m) {
-    for (uint32_t k = 0; k < growth->on->triangle_count; k++) {
-        growth->numbers = stream_start((uint64_t)m, k);
-        grow_triangle(growth, k);
     }
 }
 
@@ -188,28 +178,21 @@ static bool mesh_reserve(Mesh *mesh, const Mesh *on, bool colored, size_t most) 
     return made;
 }
 
-/* Grows the hair of own mesh m into *out. Returns false if memory is short. */
-static bool grow(const WeftScene *scene, int m, Mesh *out) {
-    const Mesh *on = &scene->meshes[m];
+/* Grows hair into *out, and sets its roots. Returns false if memory is short. */
+static bool grow(const WeftScene *scene, Hair *hair, Mesh *out) {
+    const Mesh *on = &scene->meshes[hair->mesh];
     const Material *material = &scene->materials[on->material];
-    Growth growth = {.scene = scene, .on = on, .material = material, .mesh = out};
     size_t most = 0;
     for (uint32_t k = 0; k < on->triangle_count; k++) most += (size_t)expected(on, material, k) + 1;
     *out = (Mesh){.name = on->name};
-    if (!mesh_reserve(out, on, on->color || material->cloth, most)) return false;
-    grow_triangles(&growth, m);
+    hair->roots = alloc_array(most, sizeof *hair->roots);
+    if (!hair->roots || !mesh_reserve(out, on, on->color || material->cloth, most)) return false;
+    Growth growth = {.scene = scene, .on = on, .material = material, .mesh = out, .roots = hair->roots};
+    for (uint32_t k = 0; k < on->triangle_count; k++) {
+        growth.numbers = stream_start((uint64_t)hair->mesh, k);
+        grow_triangle(&growth, k);
+    }
     return true;
-}
-
-void hair_roots(const WeftScene *scene, int mesh, uint32_t *roots) {
-    const int m = scene->hairs[mesh - scene_own_meshes(scene)].mesh;
-    const Mesh *on = &scene->meshes[m];
-    Growth growth = {.scene = scene,
-                     .on = on,
-                     .material = &scene->materials[on->material],
-                     .roots = roots,
-                     .roots_end = roots + scene->meshes[mesh].vertex_count / HAIR_VERTICES};
-    grow_triangles(&growth, m);
 }
 
 /* Returns the material of the hair of a cloth. */
@@ -312,7 +295,10 @@ static bool make_room(WeftScene *scene, int count) {
 }
 
 void hairs_free(WeftScene *scene) {
-    for (int k = 0; k < scene->hair_count; k++) mesh_free(&scene->meshes[scene_own_meshes(scene) + k]);
+    for (int k = 0; k < scene->hair_count; k++) {
+        mesh_free(&scene->meshes[scene_own_meshes(scene) + k]);
+        free(scene->hairs[k].roots);
+    }
     free(scene->hairs);
     scene->hairs = NULL;
 }
@@ -338,9 +324,12 @@ static bool replace(WeftScene *scene, Hair *hairs, const Mesh *grown, int count)
 static bool grow_all(WeftScene *scene, Hair *hairs, int count) {
     Mesh *grown = alloc_array((size_t)count, sizeof *grown);
     bool made = grown != NULL;
-    for (int k = 0; k < count && made; k++) made = grow(scene, hairs[k].mesh, &grown[k]);
+    for (int k = 0; k < count && made; k++) made = grow(scene, &hairs[k], &grown[k]);
     made = made && replace(scene, hairs, grown, count);
-    for (int k = 0; k < count && grown && !made; k++) mesh_free(&grown[k]);
+    for (int k = 0; k < count && grown && !made; k++) {
+        mesh_free(&grown[k]);
+        free(hairs[k].roots);
+    }
     free(grown);
     return made;
 }

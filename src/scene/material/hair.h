@@ -36,9 +36,6 @@ static inline float hair_thickness(const WeftScene *scene, int mesh) {
  * Functions", 1964, 5.1.4). The area of a fibre is that of 3/4 of the length and 3/4 of the width. */
 float hair_lets_through(const Material *material);
 
-/* Finds again the triangle of its cloth that each fibre of a mesh of hair stands on. */
-void hair_roots(const WeftScene *scene, int mesh, uint32_t *roots);
-
 /* Returns the vector from the middle of a fibre to one of its vertices, half as long as the fibre is wide; 0 at its tip. */
 Vec3 hair_across(const Mesh *hair, uint32_t vertex);
 

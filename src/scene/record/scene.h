@@ -49,6 +49,7 @@ typedef struct Hair {
     WeftAlphaMode alpha_mode;         /* of the material then, as is its opacity */
     float alpha_cutoff;
     Input opacity;
+    uint32_t *roots; /* the triangle that each fibre stands on; owned */
 } Hair;
 
 typedef enum LightKind { LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT } LightKind;
