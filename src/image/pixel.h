@@ -1,6 +1,7 @@
 /* pixel.h - sizes and values of pixels in memory */
 #pragma once
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -19,3 +20,6 @@ static inline double pixel_value(const WeftImage *image, size_t k) {
     default: return (double)((const float *)image->pixels)[k];
     }
 }
+
+/* Returns the byte of a share of the largest; what is below 0 or above 1 is taken as that. */
+static inline unsigned char pixel_byte(float x) { return (unsigned char)lrintf(255.0f * fminf(fmaxf(x, 0.0f), 1.0f)); }

@@ -181,8 +181,7 @@ typedef struct Asset {
     size_t buffer_count, view_count, accessor_count, image_count, sampler_count, texture_count, material_count,
         mesh_count, skin_count, camera_count, light_count, node_count;
     bool *material_shown; /* material_count + 1, the last for surfaces without a material */
-    Material *backs;      /* of materials from behind, material_count + 1; NULL: none has one of its own */
-    bool *back_given;     /* the materials that have one */
+    Material **backs;     /* of materials from behind, material_count + 1; NULL: it has none of its own */
 } Asset;
 
 /* Records a sticky failure, of which the first is kept. detail is a printf format or NULL. */

@@ -286,18 +286,13 @@ static void back_read(const Field *field, size_t index) {
         field_fail(&back, WEFT_MESSAGE_GLTF_SCHEMA, "expected an object");
         return;
     }
-    if (!asset->backs) {
-        asset->backs = asset_array(asset, &asset->arena, asset->material_count + 1, sizeof *asset->backs);
-        asset->back_given = asset_array(asset, &asset->arena, asset->material_count + 1, sizeof(bool));
-        if (!asset->backs || !asset->back_given) return;
-    }
-    Material material = material_read(&back);
-    if (json_object_get(further, "back") || material.cloth || field_extension(&back, gloss_object).json) {
+    Material *material = asset_array(asset, &asset->arena, 1, sizeof *material);
+    if (!material) return;
+    *material = material_read(&back);
+    if (json_object_get(further, "back") || material->cloth || field_extension(&back, gloss_object).json)
         field_warn(&back, WEFT_MESSAGE_GLTF_WARN_IGNORED, "it has a weave, a back or glossiness of its own");
-        return;
-    }
-    asset->backs[index] = material;
-    asset->back_given[index] = true;
+    else
+        asset->backs[index] = material;
 }
 
 void materials_read(Asset *asset) {
@@ -307,6 +302,7 @@ void materials_read(Asset *asset) {
     scene->materials = asset_array(asset, &scene->arena, asset->material_count + 1, sizeof(Material));
     scene->material_names = asset_array(asset, &scene->arena, asset->material_count + 1, sizeof(char *));
     asset->material_shown = asset_array(asset, &asset->arena, asset->material_count + 1, sizeof(bool));
+    asset->backs = asset_array(asset, &asset->arena, asset->material_count + 1, sizeof(Material *));
     for (size_t i = 0; i <= asset->material_count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&list, i);
         if (i < asset->material_count && !json_is_object(field.json))
@@ -321,11 +317,11 @@ void materials_read(Asset *asset) {
 
 void backs_take(Asset *asset) {
     WeftScene *scene = asset->scene;
-    if (!asset->backs || !asset->back_given) return;
-    if (backs_make(scene, asset->error) != WEFT_OK) {
-        asset_fail(asset, WEFT_MESSAGE_MEMORY, NULL);
-        return;
+    for (int m = 0; m < scene->material_count && asset->result == WEFT_OK; m++) {
+        if (!asset->backs[m]) continue;
+        if (backs_make(scene, asset->error) == WEFT_OK)
+            back_give(scene, m, asset->backs[m]);
+        else
+            asset_fail(asset, WEFT_MESSAGE_MEMORY, NULL);
     }
-    for (int m = 0; m < scene->back_count; m++)
-        if (asset->back_given[m]) back_give(scene, m, &asset->backs[m]);
 }

@@ -294,7 +294,7 @@ static int image_resolve(Jobs *jobs, int index) {
 static Material *side(const Asset *asset, int k) {
     const int m = k - asset->scene->material_count;
     if (m < 0) return &asset->scene->materials[k];
-    return asset->backs && asset->back_given[m] ? &asset->backs[m] : NULL;
+    return asset->backs[m];
 }
 
 /* Takes out the images without pixels, the textures that have them, and what inputs read of those. */
@@ -317,11 +317,13 @@ static void unread_drop(Asset *asset) {
     }
     scene->image_count = images;
     scene->texture_count = textures;
-    for (int m = 0; m < 2 * scene->material_count; m++)
-        for (int i = 0; i < INPUT_COUNT && side(asset, m); i++) {
-            int *texture = &side(asset, m)->inputs[i].texture;
+    for (int m = 0; m < 2 * scene->material_count; m++) {
+        Material *material = side(asset, m);
+        for (int i = 0; i < INPUT_COUNT && material; i++) {
+            int *texture = &material->inputs[i].texture;
             if (*texture) *texture = texture_place[*texture - 1] + 1;
         }
+    }
 }
 
 /* Returns the scene texture for a glTF texture, made on first use: 0 or its index + 1, as in Input. */

@@ -116,8 +116,7 @@ static WeftResult encode(const WeftImage *levels, int count, bool data, const ch
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
     if (!stream) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
-    WeftResult result = count > 1 ? image_write_ktx2(stream, name, levels, &how, error)
-                                  : image_write_png(stream, name, levels, &(WeftImageWriting){.data = data}, error);
+    WeftResult result = (count > 1 ? image_write_ktx2 : image_write_png)(stream, name, levels, &how, error);
     if (fclose(stream) != 0 && result == WEFT_OK) result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
     *bytes = (Span){(unsigned char *)text, size};
     return result;
@@ -164,20 +163,11 @@ static WeftResult texture_find(Rewrite *rewrite, Span png, Span levels, int like
     return levels.data ? levels_add(rewrite, levels, *texture, error) : WEFT_OK;
 }
 
-WeftResult rewrite_image(Rewrite *rewrite, const WeftImage *image, bool data, int like, int *texture,
+WeftResult rewrite_image(Rewrite *rewrite, const WeftImage *levels, int count, bool data, int like, int *texture,
                          WeftError *error) {
-    Span png = {0};
-    WeftResult result = encode(image, 1, data, rewrite->asset->name, &png, error);
-    if (result == WEFT_OK) result = texture_find(rewrite, png, (Span){0}, like, texture, error);
-    free((void *)png.data);
-    return result;
-}
-
-WeftResult rewrite_levels(Rewrite *rewrite, const WeftImage *levels, int count, int like, int *texture,
-                          WeftError *error) {
     Span png = {0}, ktx2 = {0};
-    WeftResult result = encode(levels, 1, true, rewrite->asset->name, &png, error);
-    if (result == WEFT_OK && count > 1) result = encode(levels, count, true, rewrite->asset->name, &ktx2, error);
+    WeftResult result = encode(levels, 1, data, rewrite->asset->name, &png, error);
+    if (result == WEFT_OK && count > 1) result = encode(levels, count, data, rewrite->asset->name, &ktx2, error);
     if (result == WEFT_OK) result = texture_find(rewrite, png, ktx2, like, texture, error);
     free((void *)png.data);
     free((void *)ktx2.data);
@@ -193,16 +183,8 @@ static bool takes_bytes(const Saving *saving) {
 static void image_put(Saving *saving, const NewImage *image) {
     json_t *object = json_array_get(json_object_get(saving->root, "images"), (size_t)image->index);
     const char *media = image_media_type(image->bytes, image->size);
-    if (takes_bytes(saving)) {
-        saving_put(saving, object, "mimeType", json_string(media));
-        saving_put(saving, object, "bufferView", json_integer(saving_view(saving, image->bytes, image->size, 0)));
-        return;
-    }
-    char end[32];
-    snprintf(end, sizeof end, "-%d.%s", image->index, strchr(media, '/') + 1);
-    const char *path = saving_beside(saving, end), *uri = path ? saving_uri(saving, path) : NULL;
-    if (uri) saving_put(saving, object, "uri", json_string(uri));
-    if (uri) saving_write(saving, path, image->bytes, image->size, NULL, 0);
+    saving_picture(saving, object, takes_bytes(saving), image->index, image->bytes, image->size, media,
+                   strchr(media, '/') + 1);
 }
 
 /* Writes the bytes of the BIN chunk to a file. */

@@ -33,13 +33,11 @@ WeftResult rewrite_begin(Rewrite *rewrite, Asset *asset, WeftError *error);
 int rewrite_texture(Rewrite *rewrite, const void *png, size_t size, int like, WeftError *error);
 
 /* Works as rewrite_texture with an image of U8 or U16, and sets *texture to the index. data: its colours are plain
- * numbers. An equal image that was added before with an equal sampler keeps its texture, so that uses share it. */
-WeftResult rewrite_image(Rewrite *rewrite, const WeftImage *image, bool data, int like, int *texture, WeftError *error);
-
-/* Works as rewrite_image with data that has `count` levels: its texture names a KTX 2 file of all of them by
- * KHR_texture_basisu beside a PNG of the first. It is shared only where all levels are equal. */
-WeftResult rewrite_levels(Rewrite *rewrite, const WeftImage *levels, int count, int like, int *texture,
-                          WeftError *error);
+ * numbers. Of more than one level the texture names a KTX 2 file of all of them by KHR_texture_basisu beside a PNG of the
+ * first. An image that was added before with an equal sampler, equal at all levels, keeps its texture, so that uses share
+ * it. */
+WeftResult rewrite_image(Rewrite *rewrite, const WeftImage *levels, int count, bool data, int like, int *texture,
+                         WeftError *error);
 
 /* Adds an extension to extensionsUsed unless it is there; the second function removes it from there and from
  * extensionsRequired. */

@@ -135,3 +135,17 @@ void saving_write(Saving *saving, const char *path, const void *head, size_t hea
     if (body_size) fwrite(body, 1, body_size, file.stream);
     saving->result = output_commit(&file, saving->error);
 }
+
+void saving_picture(Saving *saving, json_t *object, bool inside, int number, const void *bytes, size_t size,
+                    const char *media, const char *suffix) {
+    if (inside) {
+        saving_put(saving, object, "mimeType", json_string(media));
+        saving_put(saving, object, "bufferView", json_integer(saving_view(saving, bytes, size, 0)));
+        return;
+    }
+    char end[32];
+    snprintf(end, sizeof end, "-%d.%s", number, suffix);
+    const char *path = saving_beside(saving, end), *uri = path ? saving_uri(saving, path) : NULL;
+    if (uri) saving_put(saving, object, "uri", json_string(uri));
+    if (uri) saving_write(saving, path, bytes, size, NULL, 0);
+}

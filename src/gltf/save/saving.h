@@ -63,6 +63,10 @@ void nodes_save(Saving *saving);
 char *saving_beside(Saving *saving, const char *end);
 char *saving_uri(Saving *saving, const char *path);
 
+/* Puts a picture where the object of an image names it: inside the file, or in one of that number and suffix beside it. */
+void saving_picture(Saving *saving, json_t *object, bool inside, int number, const void *bytes, size_t size,
+                    const char *media, const char *suffix);
+
 /* Writes a file, completely or not at all. */
 void saving_write(Saving *saving, const char *path, const void *head, size_t head_size, const void *body,
                   size_t body_size);

@@ -93,16 +93,7 @@ static char *encode(Saving *saving, const WeftImage *image, size_t *size) {
 /* Adds a picture to the list of images. */
 static void picture_put(Saving *saving, const void *bytes, size_t size, const char *media, const char *suffix) {
     json_t *object = json_object(), *list = saving_list(saving, "images");
-    char end[32];
-    snprintf(end, sizeof end, "-%d.%s", (int)json_array_size(list), suffix);
-    if (saving->packed) {
-        saving_put(saving, object, "mimeType", json_string(media));
-        saving_put(saving, object, "bufferView", json_integer(saving_view(saving, bytes ? bytes : "", size, 0)));
-    } else {
-        const char *path = saving_beside(saving, end), *uri = path ? saving_uri(saving, path) : NULL;
-        if (uri) saving_put(saving, object, "uri", json_string(uri));
-        if (uri) saving_write(saving, path, bytes, size, NULL, 0);
-    }
+    saving_picture(saving, object, saving->packed, (int)json_array_size(list), bytes ? bytes : "", size, media, suffix);
     saving_append(saving, list, object);
 }
 
