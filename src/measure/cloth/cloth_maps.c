@@ -9,6 +9,7 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/thread.h"
+#include "image/pixel.h"
 #include "measure/cloth/map_levels.h"
 #include "scene/record/material.h"
 #include "shading/dialect/tone.h"
@@ -42,8 +43,6 @@ typedef struct MapBake {
     WeftImage maps[MAP_COUNT];
 } MapBake;
 
-static unsigned char byte_of(float x) { return (unsigned char)lrintf(255.0f * fminf(fmaxf(x, 0.0f), 1.0f)); }
-
 static unsigned char *texel_at(MapBake *b, int map, int column, int row) {
     const size_t pixel = (size_t)row * (size_t)b->grid.width + (size_t)column;
     return (unsigned char *)b->maps[map].pixels + pixel * (size_t)kinds[map].channels;
@@ -58,21 +57,22 @@ static void put_texel(MapBake *b, const MapTexel *t, int column, int row) {
     const float stretch = map_texel_stretch(t, &angle);
     unsigned char *to = texel_at(b, MAP_COLOR, column, row);
     for (int c = 0; c < 3; c++)
-        to[c] = byte_of(tone_encode(fminf(b->look.color[c] * map_texel_color(t, c, b->look.shade, b->holed), 1.0f)));
-    to[3] = byte_of(t->cover);
+        to[c] = pixel_byte(tone_encode(fminf(b->look.color[c] * map_texel_color(t, c, b->look.shade, b->holed), 1.0f)));
+    to[3] = pixel_byte(t->cover);
     to = texel_at(b, MAP_NORMAL, column, row);
-    to[0] = byte_of(0.5f + 0.5f * x * n), to[1] = byte_of(0.5f + 0.5f * y * n), to[2] = byte_of(0.5f + 0.5f * n);
+    to[0] = pixel_byte(0.5f + 0.5f * x * n), to[1] = pixel_byte(0.5f + 0.5f * y * n),
+    to[2] = pixel_byte(0.5f + 0.5f * n);
     to = texel_at(b, MAP_ROUGHNESS, column, row);
-    to[0] = byte_of(t->open / cover), to[1] = byte_of(b->look.roughness * t->roughness / cover),
-    to[2] = byte_of(b->look.metallic);
+    to[0] = pixel_byte(t->open / cover), to[1] = pixel_byte(b->look.roughness * t->roughness / cover),
+    to[2] = pixel_byte(b->look.metallic);
     to = texel_at(b, MAP_ANISOTROPY, column, row);
-    to[0] = byte_of(0.5f + 0.5f * cosf(angle)), to[1] = byte_of(0.5f + 0.5f * sinf(angle)),
-    to[2] = byte_of(b->look.anisotropy * stretch);
+    to[0] = pixel_byte(0.5f + 0.5f * cosf(angle)), to[1] = pixel_byte(0.5f + 0.5f * sinf(angle)),
+    to[2] = pixel_byte(b->look.anisotropy * stretch);
 }
 
 static void put_height(MapBake *b, const MapTexel *t, int column, int row) {
     const float span = fmaxf(b->grid.weave.high - b->grid.weave.low, 1e-6f);
-    *texel_at(b, MAP_HEIGHT, column, row) = byte_of((t->height - b->grid.weave.low) / span);
+    *texel_at(b, MAP_HEIGHT, column, row) = pixel_byte((t->height - b->grid.weave.low) / span);
 }
 
 /* Returns the first map of which there is one picture; those before it have one for each level. */
@@ -277,10 +277,9 @@ static bool is_holed(const WeftMaterial *material, const WeftCloth *cloth) {
 }
 
 /* Fits the levels of a face to its look, and writes them. */
-static WeftResult level_face(MapBake *b, const WeftMaterial *material, const WeftCloth *cloth, int profile,
-                             const char *folder, WeftBaked *found, WeftError *error) {
+static WeftResult level_face(MapBake *b, MapFit *fit, const char *folder, WeftBaked *found, WeftError *error) {
     MapLevels levels;
-    WeftResult result = map_levels_find(&b->grid, material, cloth, profile, b->holed, &b->look, &levels, error);
+    WeftResult result = map_levels_find(fit, &b->look, &levels, error);
     if (result == WEFT_OK) result = write_levels(b, &levels, folder, error);
     if (result == WEFT_OK) {
         b->look.normal = levels.normal;
@@ -293,12 +292,25 @@ static WeftResult level_face(MapBake *b, const WeftMaterial *material, const Wef
 
 /* The viewer that maps are made for. */
 typedef struct MapViewer {
-    int profile, pixels, faces;
+    int profile, pixels;
     double metres;
     bool leveled;
 } MapViewer;
 
-/* Fits and writes the faces of a cloth, for a viewer. The other face, which glTF has no place for, has no levels. */
+/* Finds the look of a face, and writes its maps. */
+static WeftResult look_face(MapBake *b, const WeftMaterial *material, const WeftCloth *cloth, int profile,
+                            const char *folder, WeftBaked *found, WeftError *error) {
+    MapFit *fit;
+    WeftResult result = map_fit_create(&b->grid, material, cloth, profile, b->holed, &fit, error);
+    if (result == WEFT_OK) map_look_find(fit, &b->look, found);
+    if (result == WEFT_OK) result = bake_face(b, folder, error);
+    if (result == WEFT_OK && b->leveled) result = level_face(b, fit, folder, found, error);
+    map_fit_free(fit);
+    return result;
+}
+
+/* Fits and writes the faces of a cloth, for a viewer; the second may be NULL. That one, which glTF has no place for, has no
+ * levels. */
 static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *const cloths[2], const MapViewer *viewer,
                              const char *folder, WeftBaked *found, WeftError *error) {
     const WeftCloth *front = cloths[0];
@@ -309,25 +321,22 @@ static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *cons
     char place[96];
     int sides[2];
     MapBake faces[2] = {{.name = ""}, {.name = ""}};
-    WeftBaked baked[2];
+    WeftBaked baked[2] = {{.levels = 0.0}, {.levels = 0.0}};
     WeftResult result = WEFT_OK;
+    const int count = cloths[1] ? 2 : 1;
     sides_of(viewer->pixels, size, viewer->leveled ? BLOCK : 1, sides);
     snprintf(place, sizeof place, "\"scale\": [%.9g, %.9g]", viewer->metres / size[0], viewer->metres / size[1]);
-    for (int k = 0; k < viewer->faces && result == WEFT_OK; k++) {
+    for (int k = 0; k < count && result == WEFT_OK; k++) {
         MapBake *b = &faces[k];
         *b = (MapBake){.grid = grid_of(cloths[k], k == 1, threads, sides),
                        .name = k ? back_name : "",
                        .holed = holed,
                        .leveled = viewer->leveled && k == 0};
-        baked[k] = (WeftBaked){.levels = 0.0};
-        result = map_look_find(&b->grid, material, cloths[k], viewer->profile, holed, &b->look, &baked[k], error);
-        if (result == WEFT_OK) result = bake_face(b, folder, error);
-        if (result == WEFT_OK && b->leveled)
-            result = level_face(b, material, cloths[k], viewer->profile, folder, &baked[k], error);
+        result = look_face(b, material, cloths[k], viewer->profile, folder, &baked[k], error);
     }
     if (result != WEFT_OK) return result;
     if (found) *found = baked[0];
-    return write_material(faces, viewer->faces, place, folder, error);
+    return write_material(faces, count, place, folder, error);
 }
 
 WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *cloth, const WeftBaking *baking,
@@ -335,7 +344,6 @@ WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *clo
     const MapViewer viewer = {.profile = profile_of(baking, error),
                               .pixels = baking->pixels ? baking->pixels : 1024,
                               .metres = fabs(baking->metres) <= 0.0 ? 1.0 : baking->metres,
-                              .faces = baking->one_face ? 1 : 2,
                               .leveled = baking->levels != 0};
     const int pixels = viewer.pixels;
     const double metres = viewer.metres;
@@ -347,10 +355,10 @@ WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *clo
     if (strlen(folder) > FOLDER_MOST) return fail(error, WEFT_MESSAGE_FILE_WRITE, "maps", "the name is too long");
     const bool made = mkdir(folder, 0777) == 0;
     if (!made && errno != EEXIST) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
-    WeftCloth *other = cloth_other_face(cloth);
+    WeftCloth *other = baking->one_face ? NULL : cloth_other_face(cloth);
     const WeftCloth *const cloths[2] = {cloth, other};
-    const WeftResult result = other ? bake_faces(material, cloths, &viewer, folder, found, error)
-                                    : fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
+    const WeftResult result = other || baking->one_face ? bake_faces(material, cloths, &viewer, folder, found, error)
+                                                        : fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
     weft_cloth_free(other);
     if (result != WEFT_OK && made) folder_remove(folder);
     return result;

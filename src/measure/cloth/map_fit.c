@@ -64,12 +64,13 @@ static void block_shade(void *user, int block, int thread) {
     (void)thread;
     memset(b->fine, 0, sizeof b->fine);
     memset(b->coarse, 0, sizeof b->coarse);
-    for (int k = 0; k < fit->fine; k++) shade(fit, &b->texels[k], 1.0 / fit->fine, b->fine);
-    if (fit->coarse) shade(fit, &b->texels[FINE], 1.0, b->coarse);
+    const int fine = fit->level ? 1 : FINE;
+    for (int k = 0; k < fine; k++) shade(fit, &b->texels[k], 1.0 / fine, b->fine);
+    if (!fit->level) shade(fit, &b->texels[FINE], 1.0, b->coarse);
 }
 
 /* Returns how many rows are compared. */
-static int rows_of(const MapFit *fit) { return fit->coarse ? 2 * MAP_ROWS : MAP_ROWS; }
+static int rows_of(const MapFit *fit) { return fit->level ? MAP_ROWS : 2 * MAP_ROWS; }
 
 /* Fills the rows with the sums of the pairs of all blocks. */
 static void rows_fill(MapFit *fit) {
@@ -103,7 +104,7 @@ static void solve(MapFit *fit, int c) {
     const double most = 1.0 / fmax(fit->color_most[c], 1e-3);
     for (int k = 0; k < ROUNDS; k++) {
         fit->gains[c] = fmin(fmax((b - bs * fit->tints[c]) / bb, 0.0), most);
-        if (!fit->own_sheen) fit->tints[c] = fmin(fmax((s - bs * fit->gains[c]) / ss, 0.0), 1.0);
+        if (!fit->level) fit->tints[c] = fmin(fmax((s - bs * fit->gains[c]) / ss, 0.0), 1.0);
     }
 }
 
@@ -163,6 +164,25 @@ double map_fit_error(MapFit *fit, const double *x, double *sky) {
     for (int c = 0; c < 3; c++) solve(fit, c);
     fit->contrast = contrast_of(fit, block_made);
     return map_fit_error_now(fit, sky);
+}
+
+void map_fit_center(MapFit *fit, int first, int per, const LookTexel *whole) {
+    LookTexel mean = {.cover = 0.0f};
+    const int count = fit->count * per;
+    const float part = 1.0f / (float)count;
+    for (int k = 0; k < count; k++) {
+        const LookTexel *t = &fit->blocks[k / per].texels[first + k % per];
+        for (int c = 0; c < 3; c++) mean.color[c] += part * t->color[c], mean.normal[c] += part * t->normal[c];
+    }
+    for (int k = 0; k < count; k++) {
+        LookTexel *t = &fit->blocks[k / per].texels[first + k % per];
+        for (int c = 0; c < 3; c++) t->color[c] *= whole->color[c] / fmaxf(mean.color[c], 1e-6f);
+        for (int a = 0; a < 2; a++) t->normal[a] += whole->normal[a] - mean.normal[a];
+    }
+}
+
+float map_fit_occlusion(const MapFit *fit, double sky) {
+    return (float)fmin(fmax((1.0 - 1.0 / fmax(sky, 1e-3)) / fmax(1.0 - (double)fit->open, 1e-3), 0.0), 1.0);
 }
 
 double map_fit_price(const MapFit *fit, double sky, double room) {
@@ -301,14 +321,8 @@ WeftResult map_fit_create(const MapGrid *grid, const WeftMaterial *material, con
         free(blocks);
         return fail(error, WEFT_MESSAGE_MEMORY, "maps", NULL);
     }
-    *fit = (MapFit){.grid = grid,
-                    .cloth = cloth,
-                    .material = material,
-                    .blocks = blocks,
-                    .holed = holed,
-                    .count = BLOCKS,
-                    .fine = FINE,
-                    .coarse = true};
+    *fit =
+        (MapFit){.grid = grid, .cloth = cloth, .material = material, .blocks = blocks, .holed = holed, .count = BLOCKS};
     viewer_set(fit, profile);
     fit->pairs = map_pairs();
     const WeftResult result = weft_reflection_create_woven(material, cloth, &fit->threads, error);

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "measure/bsdf/reflection.h"
-#include "measure/cloth/map_look.h"
 #include "measure/cloth/map_pairs.h"
+#include "measure/cloth/map_texel.h"
 #include "measure/fit/search.h"
 #include "scene/record/material_at.h"
 
@@ -60,9 +60,7 @@ typedef struct MapFit {
     LookBlock *blocks;
     bool holed;              /* gaps are holes */
     int count;               /* blocks in use */
-    int fine;                /* texels of a block that are shaded as they are: FINE, or 1 of a mip level */
-    bool coarse;             /* the coarse one is shaded too */
-    bool own_sheen;          /* tints stay as they are */
+    bool level;              /* of a mip level: one texel of a block is shaded, no coarse one, and tints stay */
     WeftReflection *threads; /* of the cloth; owned */
     const WeftMaterial *material;
     const double *x;            /* numbers at which it is shaded */
@@ -100,6 +98,13 @@ double map_fit_error(MapFit *fit, const double *x, double *sky);
 
 /* Returns the same error with the gains and tints that are set. */
 double map_fit_error_now(const MapFit *fit, double *sky);
+
+/* Gives texels first, first + 1, .. of `per` in each block the means of the whole: some hundred texels have them by chance
+ * alone, and a cloth whose threads lean to one side in the mean would reflect to that side. */
+void map_fit_center(MapFit *fit, int first, int per, const LookTexel *whole);
+
+/* Returns the strength of the occlusion map that takes back what a sky gives too much. */
+float map_fit_occlusion(const MapFit *fit, double sky);
 
 /* Returns what contrast and sky add to an error. room: the factor by which contrast may be off for nothing. */
 double map_fit_price(const MapFit *fit, double sky, double room);

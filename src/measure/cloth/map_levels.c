@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "base/thread.h"
 #include "image/halve.h"
-#include "measure/cloth/map_fit.h"
+#include "image/pixel.h"
 #include "measure/cloth/map_levels.h"
 #include "shading/dialect/tone.h"
 
@@ -142,20 +142,11 @@ static void blocks_choose(MapFit *fit, const MapLevels *levels, const MapLevel *
 
 /* Gives the blocks the mean colour and normal of the whole, which the last level is. */
 static void blocks_center(MapFit *fit, const LookTexel *whole) {
-    LookTexel mean = {.cover = 0.0f};
-    const float part = 1.0f / (float)fit->count;
-    for (int b = 0; b < fit->count; b++) {
-        const LookTexel *t = &fit->blocks[b].texels[0];
-        for (int c = 0; c < 3; c++) mean.color[c] += part * t->color[c], mean.normal[c] += part * t->normal[c];
-    }
-    for (int c = 0; c < 3; c++) fit->color_most[c] = 0.0;
-    for (int b = 0; b < fit->count; b++) {
-        LookTexel *t = &fit->blocks[b].texels[0];
-        for (int a = 0; a < 2; a++) t->normal[a] += whole->normal[a] - mean.normal[a];
-        for (int c = 0; c < 3; c++) {
-            t->color[c] *= whole->color[c] / fmaxf(mean.color[c], 1e-6f);
-            fit->color_most[c] = fmax(fit->color_most[c], (double)t->color[c]);
-        }
+    map_fit_center(fit, 0, 1, whole);
+    for (int c = 0; c < 3; c++) {
+        fit->color_most[c] = 0.0;
+        for (int b = 0; b < fit->count; b++)
+            fit->color_most[c] = fmax(fit->color_most[c], (double)fit->blocks[b].texels[0].color[c]);
     }
 }
 
@@ -186,8 +177,8 @@ static void ranges_set(const MapFit *fit, const double x[LEVEL_AXES], SearchAxis
     }
 }
 
-/* Finds the numbers of a level. before: those of the level before. mean: of the occlusion map. */
-static void level_find(LevelFit *self, const MapLevel *before, MapLevel *level, float mean) {
+/* Finds the numbers of a level. before: those of the level before. */
+static void level_find(LevelFit *self, const MapLevel *before, MapLevel *level) {
     double x[LEVEL_AXES] = {(double)before->metallic, (double)before->roughness, (double)before->anisotropy,
                             (double)before->relief},
            sky;
@@ -198,21 +189,17 @@ static void level_find(LevelFit *self, const MapLevel *before, MapLevel *level, 
     search_run(&search, x, NULL);
     for (int k = 0; k < LEVEL_AXES; k++) self->x[level_axes[k]] = x[k];
     level->error = map_fit_error(self->fit, self->x, &sky);
-    level->sky = sky - 1.0;
-    level->contrast = self->fit->contrast / fmax(self->fit->contrast_goal, 1e-6);
     level->metallic = (float)x[0], level->roughness = (float)x[1], level->anisotropy = (float)x[2];
     level->relief = (float)x[3];
     for (int c = 0; c < 3; c++) level->color[c] = (float)self->fit->gains[c];
-    level->occlusion = (float)fmin(fmax((1.0 - 1.0 / fmax(sky, 1e-3)) / fmax(1.0 - (double)mean, 1e-3), 0.0), 1.0);
+    level->occlusion = map_fit_occlusion(self->fit, sky);
 }
 
 /* Sets what all levels share: sheen and specular of the look. */
 static void look_hold(LevelFit *self, const MapLook *look) {
     MapFit *fit = self->fit;
     const float most = fmaxf(look->sheen[0], fmaxf(look->sheen[1], look->sheen[2]));
-    fit->fine = 1;
-    fit->coarse = false;
-    fit->own_sheen = true;
+    fit->level = true;
     for (int c = 0; c < 3; c++) fit->tints[c] = most > 0.0f ? (double)(look->sheen[c] / most) : 0.0;
     self->x[AXIS_SHADE] = 0.0;
     self->x[AXIS_SPECULAR] = (double)look->specular;
@@ -220,41 +207,36 @@ static void look_hold(LevelFit *self, const MapLook *look) {
     self->x[AXIS_SHEEN_ROUGHNESS] = (double)look->sheen_roughness;
 }
 
-WeftResult map_levels_find(const MapGrid *grid, const WeftMaterial *material, const WeftCloth *cloth, int profile,
-                           bool holed, const MapLook *look, MapLevels *out, WeftError *error) {
+/* Sets the numbers of the first level, which are in its texels already. */
+static void first_set(MapLevel *first, const MapLook *look) {
+    first->metallic = look->metallic;
+    first->roughness = first->anisotropy = 1.0f;
+    first->relief = look->normal;
+    first->occlusion = look->occlusion;
+    for (int c = 0; c < 3; c++) first->color[c] = look->color[c];
+}
+
+WeftResult map_levels_find(MapFit *fit, const MapLook *look, MapLevels *out, WeftError *error) {
     enum { FEW = 4, MANY = 8 }; /* points along a side of a place */
-    LevelFit self = {.fit = NULL};
+    LevelFit self = {.fit = fit};
     MapPlace places[BLOCKS];
-    *out = (MapLevels){.holed = holed, .normal = look->normal};
-    if (!texels_make(grid, look, out)) return fail(error, WEFT_MESSAGE_MEMORY, "maps", NULL);
-    const WeftResult result = map_fit_create(grid, material, cloth, profile, holed, &self.fit, error);
-    if (result == WEFT_OK) {
-        MapLevel *first = &out->items[0];
-        *first = (MapLevel){.width = first->width,
-                            .height = first->height,
-                            .metallic = look->metallic,
-                            .roughness = 1.0f,
-                            .anisotropy = 1.0f,
-                            .relief = look->normal,
-                            .occlusion = look->occlusion,
-                            .planes = {first->planes[0], first->planes[1], first->planes[2]},
-                            .color = {look->color[0], look->color[1], look->color[2]}};
-        const MapLevel *last = &out->items[out->count - 1];
-        const LookTexel whole = look_texel(out, last, 0);
-        const Covered covered = covered_of(out, last, 0);
-        const float open = covered.normal[3] / covered.cover;
-        look_hold(&self, look);
-        for (int k = 1; k < out->count; k++) {
-            MapLevel *level = &out->items[k];
-            blocks_choose(self.fit, out, level, places);
-            blocks_center(self.fit, &whole);
-            map_fit_near(self.fit, places, k < 3 ? FEW : MANY);
-            level_find(&self, level - 1, level, open);
-            out->normal = fmaxf(out->normal, level->relief);
-        }
+    *out = (MapLevels){.holed = fit->holed, .normal = look->normal};
+    if (!texels_make(fit->grid, look, out)) return fail(error, WEFT_MESSAGE_MEMORY, "maps", NULL);
+    first_set(&out->items[0], look);
+    const MapLevel *last = &out->items[out->count - 1];
+    const LookTexel whole = look_texel(out, last, 0);
+    const Covered covered = covered_of(out, last, 0);
+    fit->open = covered.normal[3] / covered.cover;
+    look_hold(&self, look);
+    for (int k = 1; k < out->count; k++) {
+        MapLevel *level = &out->items[k];
+        blocks_choose(fit, out, level, places);
+        blocks_center(fit, &whole);
+        map_fit_near(fit, places, k < 3 ? FEW : MANY);
+        level_find(&self, level - 1, level);
+        out->normal = fmaxf(out->normal, level->relief);
     }
-    map_fit_free(self.fit);
-    return result;
+    return WEFT_OK;
 }
 
 void map_levels_free(MapLevels *levels) {
@@ -262,8 +244,6 @@ void map_levels_free(MapLevels *levels) {
         for (int p = 0; p < PLANES; p++) free(levels->items[k].planes[p]);
     levels->count = 0;
 }
-
-static unsigned char byte_of(float x) { return (unsigned char)lrintf(255.0f * fminf(fmaxf(x, 0.0f), 1.0f)); }
 
 void map_level_texel(const MapLevels *levels, int level, int column, int row, unsigned char maps[MAP_LEVEL_MAPS][4]) {
     const MapLevel *from = &levels->items[level];
@@ -273,14 +253,14 @@ void map_level_texel(const MapLevels *levels, int level, int column, int row, un
     const float open = covered.normal[3] / covered.cover, scale = from->relief / fmaxf(levels->normal, 1e-6f);
     const float x = scale * t.normal[0], y = scale * t.normal[1],
                 n = 1.0f / sqrtf(x * x + y * y + t.normal[2] * t.normal[2]);
-    for (int c = 0; c < 3; c++) maps[0][c] = byte_of(tone_encode(fminf(from->color[c] * t.color[c], 1.0f)));
-    maps[0][3] = byte_of(plane_at(from, PLANE_COLOR, at)[3]);
-    maps[1][0] = byte_of(0.5f + 0.5f * x * n), maps[1][1] = byte_of(0.5f + 0.5f * y * n);
-    maps[1][2] = byte_of(0.5f + 0.5f * t.normal[2] * n);
-    maps[2][0] = byte_of(1.0f - from->occlusion * (1.0f - open));
-    maps[2][1] = byte_of(from->roughness * t.roughness);
-    maps[2][2] = byte_of(from->metallic);
-    maps[3][0] = byte_of(0.5f + 0.5f * t.along[0]), maps[3][1] = byte_of(0.5f + 0.5f * t.along[1]);
-    maps[3][2] = byte_of(from->anisotropy * t.stretch);
+    for (int c = 0; c < 3; c++) maps[0][c] = pixel_byte(tone_encode(fminf(from->color[c] * t.color[c], 1.0f)));
+    maps[0][3] = pixel_byte(plane_at(from, PLANE_COLOR, at)[3]);
+    maps[1][0] = pixel_byte(0.5f + 0.5f * x * n), maps[1][1] = pixel_byte(0.5f + 0.5f * y * n);
+    maps[1][2] = pixel_byte(0.5f + 0.5f * t.normal[2] * n);
+    maps[2][0] = pixel_byte(1.0f - from->occlusion * (1.0f - open));
+    maps[2][1] = pixel_byte(from->roughness * t.roughness);
+    maps[2][2] = pixel_byte(from->metallic);
+    maps[3][0] = pixel_byte(0.5f + 0.5f * t.along[0]), maps[3][1] = pixel_byte(0.5f + 0.5f * t.along[1]);
+    maps[3][2] = pixel_byte(from->anisotropy * t.stretch);
     maps[1][3] = maps[2][3] = maps[3][3] = 255;
 }

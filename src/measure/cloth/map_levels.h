@@ -26,7 +26,7 @@ typedef struct MapLevel {
     float color[3], roughness, anisotropy, metallic; /* factors, and the number itself */
     float relief;                                    /* factor on the slopes of normals */
     float occlusion;                                 /* strength */
-    double error, sky, contrast;                     /* as WeftBaked has them */
+    double error;                                    /* as WeftBaked.fitted */
 } MapLevel;
 
 typedef struct MapLevels {
@@ -36,9 +36,9 @@ typedef struct MapLevels {
     bool holed;
 } MapLevels;
 
-/* Makes the levels of maps with that look. Release with map_levels_free, in any case. Fails with WEFT_MESSAGE_MEMORY. */
-WeftResult map_levels_find(const MapGrid *grid, const WeftMaterial *material, const WeftCloth *cloth, int profile,
-                           bool holed, const MapLook *look, MapLevels *out, WeftError *error);
+/* Makes the levels of maps with that look, which was found by the fit. Release with map_levels_free, in any case. Fails with
+ * WEFT_MESSAGE_MEMORY. */
+WeftResult map_levels_find(MapFit *fit, const MapLook *look, MapLevels *out, WeftError *error);
 void map_levels_free(MapLevels *levels);
 
 /* Writes a texel of base colour and cover, normal, occlusion with roughness and metallic, and anisotropy. */

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "measure/cloth/map_fit.h"
+#include "measure/cloth/map_look.h"
 #include "weave/weft_cloth.h"
 
 enum { NEAR_SIDE = 4 };                  /* points along a side of a block */
@@ -68,30 +68,14 @@ static void block_read(MapFit *fit, int block) {
     }
 }
 
-/* Gives texels first, first + 1, .. of `per` in each block the means of the whole: some hundred texels have them by chance
- * alone, and a cloth whose threads lean to one side in the mean would reflect to that side. */
-static void center(MapFit *fit, int first, int per, const LookTexel *whole) {
-    LookTexel mean = {.cover = 0.0f};
-    const float part = 1.0f / (float)(BLOCKS * per);
-    for (int k = 0; k < BLOCKS * per; k++) {
-        const LookTexel *t = &fit->blocks[k / per].texels[first + k % per];
-        for (int c = 0; c < 3; c++) mean.color[c] += part * t->color[c], mean.normal[c] += part * t->normal[c];
-    }
-    for (int k = 0; k < BLOCKS * per; k++) {
-        LookTexel *t = &fit->blocks[k / per].texels[first + k % per];
-        for (int c = 0; c < 3; c++) t->color[c] *= whole->color[c] / fmaxf(mean.color[c], 1e-6f);
-        for (int a = 0; a < 2; a++) t->normal[a] += whole->normal[a] - mean.normal[a];
-    }
-}
-
 static void texels_read(MapFit *fit) {
     const MapTexel mean = whole_mean(fit->grid);
     LookTexel whole = {.cover = 0.0f};
     look_add(&whole, &mean, fit->holed, 1.0f);
     fit->open = mean.open / fmaxf(mean.cover, 1e-6f);
     for (int k = 0; k < BLOCKS; k++) block_read(fit, k);
-    center(fit, 0, FINE, &whole);
-    center(fit, FINE, 1, &whole);
+    map_fit_center(fit, 0, FINE, &whole);
+    map_fit_center(fit, FINE, 1, &whole);
     for (int k = 0; k < BLOCKS; k++)
         for (int c = 0; c < 3; c++)
             fit->color_most[c] = fmax(fit->color_most[c], (double)fit->blocks[k].texels[FINE].color[c]);
@@ -170,25 +154,17 @@ static void look_search(MapFit *fit, MapLook *look, WeftBaked *found) {
         look->color[c] = (float)(fit->gains[c] * chance(fit, c, look->shade));
         look->sheen[c] = (float)(fit->tints[c] * x[AXIS_SHEEN]);
     }
-    /* occlusion takes back what the sky gives too much */
-    look->occlusion = (float)fmin(fmax((1.0 - 1.0 / fmax(sky, 1e-3)) / fmax(1.0 - (double)fit->open, 1e-3), 0.0), 1.0);
+    look->occlusion = map_fit_occlusion(fit, sky);
 }
 
-WeftResult map_look_find(const MapGrid *grid, const WeftMaterial *material, const WeftCloth *cloth, int profile,
-                         bool holed, MapLook *look, WeftBaked *found, WeftError *error) {
-    MapFit *fit;
+void map_look_find(MapFit *fit, MapLook *look, WeftBaked *found) {
     MapPlace places[BLOCKS];
-    const WeftResult result = map_fit_create(grid, material, cloth, profile, holed, &fit, error);
-    if (result == WEFT_OK) {
-        texels_read(fit);
-        for (int k = 0; k < BLOCKS; k++) {
-            int column, row;
-            block_place(grid, k, &column, &row);
-            places[k] = (MapPlace){(float)column, (float)row, NEAR_SIDE, NEAR_SIDE};
-        }
-        map_fit_near(fit, places, NEAR_SIDE);
-        look_search(fit, look, found);
+    texels_read(fit);
+    for (int k = 0; k < BLOCKS; k++) {
+        int column, row;
+        block_place(fit->grid, k, &column, &row);
+        places[k] = (MapPlace){(float)column, (float)row, NEAR_SIDE, NEAR_SIDE};
     }
-    map_fit_free(fit);
-    return result;
+    map_fit_near(fit, places, NEAR_SIDE);
+    look_search(fit, look, found);
 }

@@ -12,7 +12,7 @@
  * with each other, which nearly flat normals would lose. */
 #pragma once
 
-#include "measure/cloth/map_texel.h"
+#include "measure/cloth/map_fit.h"
 #include "weft/match.h"
 
 /* The factors on the texels of the maps, and the numbers beside them. */
@@ -26,7 +26,5 @@ typedef struct MapLook {
     float occlusion; /* strength of the occlusion map */
 } MapLook;
 
-/* Finds the look of maps of a cloth for viewers that shade as a profile does. material: of the cloth, whose other inputs
- * lie on it. holed: gaps are left out, not black. Sets *found. Fails with WEFT_MESSAGE_MEMORY. */
-WeftResult map_look_find(const MapGrid *grid, const WeftMaterial *material, const WeftCloth *cloth, int profile,
-                         bool holed, MapLook *look, WeftBaked *found, WeftError *error);
+/* Finds the look of maps of a cloth for viewers that shade as the profile of a fit that has begun does, and sets *found. */
+void map_look_find(MapFit *fit, MapLook *look, WeftBaked *found);

@@ -91,7 +91,7 @@ static WeftResult alpha_texture(const WeftDoctor *doctor, Rewrite *rewrite, cons
     WeftImage image = {0};
     WeftResult result = alpha_image(&doctor->scene->images[doctor->scene->textures[texture].image], repair->channel,
                                     name, &image, error);
-    if (result == WEFT_OK) result = rewrite_image(rewrite, &image, true, repair->texture, made, error);
+    if (result == WEFT_OK) result = rewrite_image(rewrite, &image, 1, true, repair->texture, made, error);
     weft_image_free(&image);
     return result;
 }

@@ -8,6 +8,8 @@
 #include "gltf/read/gltf.h"
 #include "gltf/save/rewrite.h"
 #include "image/halve.h"
+#include "image/pixel.h"
+#include "measure/match/match_factor.h"
 #include "measure/match/match_place.h"
 #include "scene/record/scene.h"
 #include "shading/dialect/texel.h"
@@ -32,15 +34,12 @@ typedef struct FineMaps {
 
 /* Reads the texels of level 0. */
 static void texels_read(FineMaps *maps) {
-    const Input *normal = &maps->material->inputs[INPUT_normal], *rough = &maps->material->inputs[INPUT_roughness];
-    const Texture *texture = &maps->scene->textures[normal->texture - 1];
+    const Input *rough = &maps->material->inputs[INPUT_roughness];
     for (int k = 0; k < maps->width * maps->height; k++) {
         const int column = k % maps->width, row = k / maps->width;
         const float u = ((float)column + 0.5f) / (float)maps->width, v = ((float)row + 0.5f) / (float)maps->height;
-        const Texel t = texture_fetch(texture, maps->scene->images, NULL, u, v);
-        Texel r = {{1.0f, 1.0f, 1.0f, 1.0f}};
-        if (rough->texture)
-            r = texture_fetch(&maps->scene->textures[rough->texture - 1], maps->scene->images, NULL, u, v);
+        const Texel t = place_texel(maps->scene, maps->material, INPUT_normal, u, v),
+                    r = place_texel(maps->scene, maps->material, INPUT_roughness, u, v);
         const Dir n = texel_normal(t.c[0], t.c[1], t.c[2], 1.0f);
         const float least = 1.0f / SLOPE_MOST, z = n.z > least ? n.z : least;
         const float roughness = r.c[1] * rough->value[0], alpha = roughness * roughness;
@@ -60,8 +59,6 @@ static double deviation(const FineMaps *maps) {
     return (double)maps->scale * (sqrt)(fmax(sum[2] - sum[0] * sum[0] - sum[1] * sum[1], 0.0));
 }
 
-static unsigned char byte_of(float x) { return (unsigned char)lrintf(255.0f * fminf(fmaxf(x, 0.0f), 1.0f)); }
-
 /* Writes the texels of a level into its two pictures. */
 static void level_write(FineMaps *maps, int level, int texels) {
     unsigned char *normals = maps->images[0][level].pixels, *rest = maps->images[1][level].pixels;
@@ -70,10 +67,10 @@ static void level_write(FineMaps *maps, int level, int texels) {
         const float length = fmaxf(sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), 1e-6f);
         const float away = level ? fmaxf(s[2] - s[0] * s[0] - s[1] * s[1], 0.0f) : 0.0f;
         const float square = n[3] + maps->scale * maps->scale * away;
-        for (int c = 0; c < 3; c++) normals[c] = byte_of(0.5f + 0.5f * n[c] / length);
-        rest[0] = byte_of(maps->planes[PLANE_REST][4 * k]);
-        rest[1] = byte_of(sqrtf(sqrtf(square)));
-        rest[2] = byte_of(maps->planes[PLANE_REST][4 * k + 1]);
+        for (int c = 0; c < 3; c++) normals[c] = pixel_byte(0.5f + 0.5f * n[c] / length);
+        rest[0] = pixel_byte(maps->planes[PLANE_REST][4 * k]);
+        rest[1] = pixel_byte(sqrtf(sqrtf(square)));
+        rest[2] = pixel_byte(maps->planes[PLANE_REST][4 * k + 1]);
     }
 }
 
@@ -101,10 +98,7 @@ static int index_of(const json_t *info) { return info ? (int)json_integer_value(
 static void maps_name(json_t *material, const int textures[MAPS]) {
     json_t *normal = json_object_get(material, "normalTexture"),
            *occlusion = json_object_get(material, "occlusionTexture");
-    if (!json_object_get(material, "pbrMetallicRoughness"))
-        json_object_set_new(material, "pbrMetallicRoughness", json_object());
-    json_t *base = json_object_get(material, "pbrMetallicRoughness"),
-           *rough = json_object_get(base, "metallicRoughnessTexture");
+    json_t *base = factor_home(material, pbr_object), *rough = json_object_get(base, "metallicRoughnessTexture");
     const bool shared = rough && occlusion && index_of(rough) == index_of(occlusion);
     if (!rough) {
         json_object_set_new(base, "metallicRoughnessTexture", json_deep_copy(normal));
@@ -128,7 +122,7 @@ static bool is_finer(const WeftScene *scene, const Input *input, const WeftImage
 static bool is_suited(const WeftScene *scene, const Material *material, const json_t *object) {
     const Input *normal = &material->inputs[INPUT_normal], *rough = &material->inputs[INPUT_roughness];
     if (!normal->texture || material->unlit || !json_object_get(object, "normalTexture")) return false;
-    if (json_object_get(json_object_get(object, "extensions"), "KHR_materials_pbrSpecularGlossiness")) return false;
+    if (json_object_get(json_object_get(object, "extensions"), gloss_object)) return false;
     const Texture *texture = &scene->textures[normal->texture - 1];
     const WeftImage *image = &scene->images[texture->image];
     const bool sides = image->width % BLOCK == 0 && image->height % BLOCK == 0;
@@ -161,7 +155,7 @@ static WeftResult material_level(Rewrite *rewrite, const WeftScene *scene, int i
         const int like = index_of(json_object_get(object, "normalTexture"));
         result = levels_make(&maps, error);
         for (int m = 0; m < MAPS && result == WEFT_OK; m++)
-            result = rewrite_levels(rewrite, maps.images[m], maps.count, like, &textures[m], error);
+            result = rewrite_image(rewrite, maps.images[m], maps.count, true, like, &textures[m], error);
         if (result == WEFT_OK) maps_name(object, textures);
         *changed = result == WEFT_OK;
     }

@@ -295,7 +295,7 @@ static WeftResult images_add(TexelWork *self, Rewrite *rewrite, json_t *material
     WeftResult result = WEFT_OK;
     for (int k = 0; k < self->canvas_count && result == WEFT_OK; k++) {
         const Canvas *canvas = &self->canvases[k];
-        result = rewrite_image(rewrite, &canvas->image, !canvas->taken[0], canvas->like, &textures[k], error);
+        result = rewrite_image(rewrite, &canvas->image, 1, !canvas->taken[0], canvas->like, &textures[k], error);
     }
     for (int k = 0; k < self->edit_count && result == WEFT_OK; k++)
         result = info_set(material, &self->edits[k], textures[self->edits[k].canvas], rewrite->asset->name, error);

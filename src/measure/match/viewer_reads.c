@@ -14,6 +14,7 @@
 
 #include "base/fail.h"
 #include "gltf/asset/material_fields.h"
+#include "measure/match/match_factor.h"
 
 /* The targets, in the order of their bits below. */
 static const WeftTarget targets[] = {
@@ -120,8 +121,7 @@ static WeftResult ior_to_color(Rewrite *rewrite, json_t *parts, const json_t *io
     const double n = number ? json_number_value(number) : 1.5;
     const double root = n >= 1.0 ? (n - 1.0) / (n + 1.0) : 1.0, scale = root * root / 0.04;
     if (fabs(scale - 1.0) < 1e-4) return WEFT_OK;
-    if (!json_object_get(parts, specular_name)) json_object_set_new(parts, specular_name, json_object());
-    specular_color_scale(json_object_get(parts, specular_name), scale);
+    specular_color_scale(factor_home(parts, specular_name), scale);
     return rewrite_uses(rewrite, specular_name, error);
 }
 
