@@ -259,7 +259,6 @@ Viewer *viewer_create(const ViewDesc *desc) {
                             .dialogs = &states->dialogs,
                             .drag = &states->drag,
                             .stills = &states->stills,
-                            .bakings = &states->bakings,
                             .leaving = &states->leaving,
                             .sessions = &states->sessions,
                             .photographs = &states->photographs,

@@ -20,8 +20,7 @@ SourceKind source_kind(const char *what) {
     return weft_reflection_readable(what) ? SOURCE_MEASURED : SOURCE_DRAFT;
 }
 
-/* Works as scene calls do, and reports a failure. */
-static int told(WeftResult result, const WeftError *error) {
+int told(WeftResult result, const WeftError *error) {
     return result == WEFT_OK || result == WEFT_INTERRUPTED ? (int)result : report_error(error);
 }
 
@@ -79,7 +78,8 @@ static int meaning_set(Delivery *delivery, SourceKind kind, WeftScene *scene) {
     const int khronos = kind_find(kind_of("profile"), "khronos");
     const int count = woven_count(scene);
     const bool woven = delivery->woven = count > 0;
-    delivery->all_woven = count == weft_scene_info(scene).material_count;
+    delivery->materials = weft_scene_info(scene).material_count;
+    delivery->all_woven = count == delivery->materials;
     delivery->from = khronos;
     delivery->reference = "its threads";
     if (kind == SOURCE_ASSET) {
@@ -138,9 +138,11 @@ static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const Wef
     snprintf(folder, sizeof folder, "%.3900s/bake-%.32s-%d-%d-%d", delivery->temporary, baking.profile, baking.levels,
              baking.one_face, index);
     result = weft_scene_bake(scene, index, &baking, folder, NULL, &error);
-    snprintf(rotated, sizeof rotated, "weaves are not rotated: that of material %d by %g degrees", index,
-             (double)info.rotation);
-    if (info.rotation > 0.0f || info.rotation < 0.0f) loss_add(delivery, WEFT_MESSAGE_NONE, rotated);
+    if (info.rotation > 0.0f || info.rotation < 0.0f) {
+        snprintf(rotated, sizeof rotated, "weaves are not rotated: that of material %d by %g degrees", index,
+                 (double)info.rotation);
+        loss_add(delivery, WEFT_MESSAGE_NONE, rotated);
+    }
     return told(result, &error);
 }
 

@@ -44,7 +44,7 @@ static int material_write(WeftScene *scene, const char *path, char **lost) {
     if (!losses.lines) return report(WEFT_RESOURCES, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_MEMORY));
     const WeftLog log = {.fn = loss_note, .user = &losses};
     WeftError error;
-    int result = weft_scene_save_u3m(scene, 0, path, NULL, &log, &error) == WEFT_OK ? 0 : report_error(&error);
+    int result = told(weft_scene_save_u3m(scene, 0, path, NULL, &log, &error), &error);
     const bool whole = fclose(losses.lines) == 0;
     if (result == 0 && !whole)
         result = report(WEFT_RESOURCES, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_MEMORY));
@@ -53,11 +53,10 @@ static int material_write(WeftScene *scene, const char *path, char **lost) {
 
 int u3m_write(Delivery *delivery, TargetFile *file, const char *path) {
     WeftScene *scene = NULL;
+    if (delivery->materials != 1)
+        return report(WEFT_USAGE, "--to u3m: a U3M holds one material, and %.300s has %d; deliver each by itself",
+                      delivery->what, delivery->materials);
     int result = source_bake(delivery, &(WeftBaking){.profile = file_target(file).fit}, &scene);
-    const int count = result == 0 ? weft_scene_info(scene).material_count : 1;
-    if (count != 1)
-        result = report(WEFT_USAGE, "--to u3m: a U3M holds one material, and %.300s has %d; deliver each by itself",
-                        delivery->what, count);
     if (result == 0) result = material_write(scene, path, &file->delivery.lost);
     weft_scene_free(scene);
     return result;
@@ -67,5 +66,5 @@ int u3m_load(Delivery *delivery, const char *path, WeftScene **out) {
     WeftError error;
     const int result = source_load(delivery, out);
     if (result != 0) return result;
-    return weft_scene_assign_material(*out, NULL, path, NULL, &error) == WEFT_OK ? 0 : report_error(&error);
+    return told(weft_scene_assign_material(*out, NULL, path, NULL, &error), &error);
 }

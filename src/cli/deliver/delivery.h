@@ -61,9 +61,9 @@ typedef struct Delivery {
     int pixels, width, height, spp;
     int textures; /* of cloth: of TextureFormat */
     char cameras[VIEW_COUNT][WEFT_CAMERA_TEXT];
-    bool woven; /* X has cloth, which is baked for each target by itself */
-    bool
-        all_woven; /* all of X is cloth, so that all is made for the target and nothing converted from another engine */
+    int materials;  /* of X */
+    bool woven;     /* X has cloth, which is baked for each target by itself */
+    bool all_woven; /* nothing else: all is made for the target, and nothing is converted from another engine */
     char lost[400]; /* what the original has and its textures lack, sentences; "": nothing */
     TargetFile files[DELIVER_TARGETS];
     int count;
@@ -79,6 +79,9 @@ int delivery_heed(void *delivery, double fraction);
 SourceKind source_kind(const char *what);
 
 /* The functions below return 0, or an exit code after one line on standard error; WEFT_INTERRUPTED has no line yet. */
+
+/* Returns the exit code of a call of the library, and reports a failure. */
+int told(WeftResult result, const WeftError *error);
 
 /* Reads what is delivered as a scene, which is what the pictures are compared with. May be called again. */
 int source_load(Delivery *delivery, WeftScene **out);

@@ -120,7 +120,7 @@ static int target_file_load(Delivery *delivery, const TargetFile *file, const ch
     if (file->target == TARGET_U3M) return u3m_load(delivery, path, scene);
     WeftResult result = weft_scene_load(path, scene, NULL, &error);
     if (result == WEFT_OK) result = weft_scene_set(*scene, "*.profile", file_target(file).profile, NULL, &error);
-    return result == WEFT_OK ? 0 : report_error(&error);
+    return told(result, &error);
 }
 
 /* Gives fine normal maps of a written file mip levels of their own, and lists what it then uses. */
@@ -150,10 +150,10 @@ static int gltf_write(Delivery *delivery, TargetFile *file, const char *path) {
     const int result = source_write(delivery, file, source, &from);
     if (result != 0) return result;
     delivery_part(delivery, middle, high);
-    const WeftResult made = weft_deliver(source, path, from, file->target, delivery->metric, delivery_heed, delivery,
-                                         &file->delivery, NULL, &error);
-    if (made != WEFT_OK) return made == WEFT_INTERRUPTED ? (int)made : report_error(&error);
-    return target_levels(delivery, file) ? levels_add(file, path) : 0;
+    const int made = told(weft_deliver(source, path, from, file->target, delivery->metric, delivery_heed, delivery,
+                                       &file->delivery, NULL, &error),
+                          &error);
+    return made == 0 && target_levels(delivery, file) ? levels_add(file, path) : made;
 }
 
 /* Renders a delivered file as its target shades it, and compares it with the reference. */
