@@ -47,20 +47,18 @@ static void suffix_change(const char *from, const char *to) {
 /* Bakes a cloth in all kinds, to folders of their names. */
 static void bake(const WeftMaterial *material, const WeftCloth *cloth, const char *profile, int side) {
     static const char *const maps[] = {"base_color", "normal", "occlusion_roughness", "anisotropy"};
-    static const char *const faces[] = {"", "back-"};
     WeftError error;
     for (int k = 0; k < KINDS; k++) {
         const WeftBaking baking = {.pixels = side, .profile = profile, .levels = k == KINDS - 1, .one_face = 1};
         if (weft_material_bake(material, cloth, &baking, kinds[k], NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     }
-    for (int m = 0; m < 8; m++) {
+    for (int m = 0; m < 4; m++) {
         WeftImage image;
         char path[128];
-        snprintf(path, sizeof path, "means/%s%s.png", faces[m / 4], maps[m % 4]);
+        snprintf(path, sizeof path, "means/%s.png", maps[m]);
         WeftResult result = weft_image_read(path, &image, NULL, &error);
-        snprintf(path, sizeof path, "means/%s%s.ktx2", faces[m / 4], maps[m % 4]);
-        if (result == WEFT_OK)
-            result = weft_image_write_as(path, &image, &(WeftImageWriting){.data = m % 4 != 0}, &error);
+        snprintf(path, sizeof path, "means/%s.ktx2", maps[m]);
+        if (result == WEFT_OK) result = weft_image_write_as(path, &image, &(WeftImageWriting){.data = m != 0}, &error);
         if (result != WEFT_OK) fail_msg("%s", error.text);
         weft_image_free(&image);
     }

@@ -33,6 +33,14 @@ static inline bool scratch_remove(const char *folder) {
     return system(command) == 0;
 }
 
+/* For a group of tests that work in one, which *state is: to begin and to end with. */
+static inline int scratch_group_begin(void **state) {
+    static char folder[SCRATCH_SIZE];
+    *state = folder;
+    return scratch_enter(folder) ? 0 : -1;
+}
+static inline int scratch_group_end(void **state) { return chdir("/") == 0 && scratch_remove(*state) ? 0 : -1; }
+
 /* Removes a folder; fails if a test has left a file in it. */
 static inline bool scratch_remove_empty(const char *folder) { return chdir("/") == 0 && rmdir(folder) == 0; }
 

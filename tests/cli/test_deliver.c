@@ -241,7 +241,7 @@ static bool tells(const json_t *lines, const char *text) {
     return false;
 }
 
-/* What goes through glass is no reflection: an extension less is no reason to blacken its base colour. */
+/* Glass keeps its base colour, by which no reflection is matched, where an extension is taken out. */
 static void glass_keeps_its_color(void **state) {
     (void)state;
     static const char *const targets[] = {"khronos", "three", "filament", "core"};

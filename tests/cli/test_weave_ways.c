@@ -261,12 +261,17 @@ static void weaves_rotate_in_the_path_tracer(void **state) {
     a_rotated_weave_lies_as_it_says("trace");
 }
 
-static void weaves_rotate_in_the_raster_engine(void **state) {
-    (void)state;
+/* Skips where there is no OpenGL. */
+static void need_gl(void) {
     Ran ran = RUN("render", "builtin:ball", "--engine", "raster", "--width", "8", "--height", "8", "-o", "probe.npy");
     const bool gl = ran.code == 0;
     ran_free(&ran);
     if (!gl) skip();
+}
+
+static void weaves_rotate_in_the_raster_engine(void **state) {
+    (void)state;
+    need_gl();
     a_rotated_weave_lies_as_it_says("raster");
 }
 
@@ -435,10 +440,7 @@ static void woven_is_no_glass_in_the_path_tracer(void **state) {
 
 static void woven_is_no_glass_in_the_raster_engine(void **state) {
     (void)state;
-    Ran ran = RUN("render", "builtin:ball", "--engine", "raster", "--width", "8", "--height", "8", "-o", "probe.npy");
-    const bool gl = ran.code == 0;
-    ran_free(&ran);
-    if (!gl) skip();
+    need_gl();
     woven_is_no_glass("raster");
 }
 

@@ -7,7 +7,7 @@
 #include "scene/material/u3m.h"
 #include "scene/material/u3m_weave.h"
 
-/* In place of the program's own: looks the words up, and weaves nothing. To weave one of its own drafts takes a tenth of a
+/* Looks the words up in place of the program's own, and weaves nothing. To weave one of its own drafts takes a tenth of a
  * second, and the file has no influence on that. */
 WeftResult u3m_weave(const json_t *physics, const char *name, MaterialFile *out, const WeftLog *log, WeftError *error) {
     const char *draft, *yarn;

@@ -8,18 +8,6 @@
 #include "reading.h"
 #include "scratch.h"
 
-static char folder[SCRATCH_SIZE];
-
-static int begin(void **state) {
-    (void)state;
-    return scratch_enter(folder) ? 0 : -1;
-}
-
-static int end(void **state) {
-    (void)state;
-    return scratch_remove(folder) ? 0 : -1;
-}
-
 static void write_bytes(const char *path, const void *bytes, size_t size) {
     FILE *stream = fopen(path, "wb");
     assert_non_null(stream);
@@ -285,5 +273,5 @@ int main(void) {
         cmocka_unit_test(new_pictures_are_written_beside_the_asset),
         cmocka_unit_test(output_of_another_suffix_is_refused),
     };
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, scratch_group_begin, scratch_group_end);
 }

@@ -57,17 +57,20 @@ static WeftScene *saved(const WeftScene *scene, const char *name) {
     return back;
 }
 
-static WeftImage drawn(const WeftScene *scene) {
-    const char *camera = weft_scene_info(scene).camera_count ? "0" : "auto";
+static WeftImage drawn_from(const WeftScene *scene, const char *camera, int spp) {
     const WeftRenderDesc desc = {.width = 48, .height = 36, .camera = camera, .seed = 7};
     WeftRender *render;
     WeftImage image;
     WeftError error;
     if (weft_render_create(scene, &desc, &render, &error) != WEFT_OK) fail_msg("%s", error.text);
-    weft_render_run(render, 2, 0.0, NULL, NULL);
+    weft_render_run(render, spp, 0.0, NULL, NULL);
     assert_int_equal(weft_render_image(render, &image, &error), WEFT_OK);
     weft_render_free(render);
     return image;
+}
+
+static WeftImage drawn(const WeftScene *scene) {
+    return drawn_from(scene, weft_scene_info(scene).camera_count ? "0" : "auto", 2);
 }
 
 static void assert_same_textures(const WeftScene *a, int at_a, const WeftScene *b, int at_b) {
@@ -330,18 +333,11 @@ static WeftScene *two_faced(void) {
 
 /* Returns the mean of each channel of a picture from behind, where the back is seen. */
 static void mean_from_behind(const WeftScene *scene, double mean[3]) {
-    const WeftRenderDesc desc = {.width = 48, .height = 36, .camera = "-0.25,-0.13,-0.39;0.02,0,0.05;28", .seed = 7};
-    WeftRender *render;
-    WeftImage image;
-    WeftError error;
-    if (weft_render_create(scene, &desc, &render, &error) != WEFT_OK) fail_msg("%s", error.text);
-    weft_render_run(render, 4, 0.0, NULL, NULL);
-    assert_int_equal(weft_render_image(render, &image, &error), WEFT_OK);
+    WeftImage image = drawn_from(scene, "-0.25,-0.13,-0.39;0.02,0,0.05;28", 4);
     for (int c = 0; c < 3; c++) {
         mean[c] = 0.0;
         for (int k = 0; k < 48 * 36; k++) mean[c] += (double)((float *)image.pixels)[4 * k + c] / (48.0 * 36.0);
     }
-    weft_render_free(render);
     weft_image_free(&image);
 }
 

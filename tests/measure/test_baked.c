@@ -208,13 +208,6 @@ static void no_ior_is_written(void **state) {
     weft_cloth_free(cloth);
 }
 
-static int enter(void **state) {
-    static char folder[SCRATCH_SIZE];
-    *state = folder;
-    return scratch_enter(folder) ? 0 : -1;
-}
-static int leave(void **state) { return chdir("/") == 0 && scratch_remove(*state) ? 0 : -1; }
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_bakes_are_refused),
@@ -222,5 +215,5 @@ int main(void) {
         cmocka_unit_test(baked_presets_are_shaded_as_their_threads),
         cmocka_unit_test(levels_keep_the_light_from_afar),
     };
-    return cmocka_run_group_tests(tests, enter, leave);
+    return cmocka_run_group_tests(tests, scratch_group_begin, scratch_group_end);
 }

@@ -389,18 +389,6 @@ static void every_finding_has_a_case(void **state) {
     assert_null(weft_severity_name((WeftSeverity)-1));
 }
 
-static char folder[SCRATCH_SIZE];
-
-static int begin(void **state) {
-    (void)state;
-    return scratch_enter(folder) ? 0 : -1;
-}
-
-static int end(void **state) {
-    (void)state;
-    return scratch_remove(folder) ? 0 : -1;
-}
-
 static json_t *load(const char *path) {
     json_error_t error;
     json_t *root = json_load_file(path, 0, &error);
@@ -884,5 +872,5 @@ int main(void) {
         cmocka_unit_test(warnings_of_sample_assets_are_findings),
         cmocka_unit_test(doctor_refuses_broken_files),
     };
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, scratch_group_begin, scratch_group_end);
 }

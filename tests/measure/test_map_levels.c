@@ -46,9 +46,11 @@ static MapLevels levels_of(const WeftCloth *cloth, const char *profile, bool hol
     weft_material_default(&material);
     material.alpha_mode = holed ? WEFT_ALPHA_BLEND : WEFT_ALPHA_OPAQUE;
     grid.weave.cycle_x = grid.weave.cycle_y = 4.0f;
-    if (map_levels_find(&grid, &material, cloth, choice_find(CHOICE_profile, profile), holed, &look, &levels, &error) !=
-        WEFT_OK)
+    MapFit *fit;
+    if (map_fit_create(&grid, &material, cloth, choice_find(CHOICE_profile, profile), holed, &fit, &error) != WEFT_OK ||
+        map_levels_find(fit, &look, &levels, &error) != WEFT_OK)
         fail_msg("%s", error.text);
+    map_fit_free(fit);
     return levels;
 }
 

@@ -13,17 +13,6 @@
 #include "scratch.h"
 #include "weft/weft.h"
 
-static char folder[SCRATCH_SIZE];
-
-static int begin(void **state) {
-    (void)state;
-    return scratch_enter(folder) ? 0 : -1;
-}
-static int end(void **state) {
-    (void)state;
-    return chdir("/") == 0 && scratch_remove(folder) ? 0 : -1;
-}
-
 static WeftMaterial material_of(const WeftScene *scene) {
     WeftMaterial material;
     assert_int_equal(weft_scene_material(scene, 0, &material, NULL), WEFT_OK);
@@ -131,5 +120,5 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(textures_take_the_place_of_threads_below_the_fuzz),
                                        cmocka_unit_test(inputs_over_threads_are_kept_or_said_to_be_lost),
                                        cmocka_unit_test(an_unwoven_material_is_refused)};
-    return cmocka_run_group_tests_name("measure/scene_bake", tests, begin, end);
+    return cmocka_run_group_tests_name("measure/scene_bake", tests, scratch_group_begin, scratch_group_end);
 }

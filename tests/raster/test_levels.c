@@ -15,8 +15,8 @@
 
 #include "base/file.h"
 #include "raster/gl.h"
+#include "raster/square.h"
 #include "scratch.h"
-#include "trace/scenes.h"
 
 enum { TEXELS = 64, LEVELS = 6, SIDE = 64 };
 static const char *const CAMERA = "0,2,0.001;0,0,0;43.6"; /* sees 1.6 m */
@@ -31,6 +31,15 @@ static void fill(int level, WeftImage *image) {
     for (int k = 0; k < 3 * side * side; k++) ((unsigned char *)image->pixels)[k] = colors[level][k % 3];
 }
 
+/* Writes a material file whose texture is a file, with `more` said of it. */
+static void texture_say(const char *name, const char *texture, const char *more) {
+    FILE *file = fopen(name, "w");
+    assert_non_null(file);
+    fprintf(file, "{\"base_color\": {\"texture\": \"%s\", %s}, \"roughness\": 1, \"specular\": 0, \"reflectance\": 0}",
+            texture, more);
+    assert_int_equal(fclose(file), 0);
+}
+
 /* Writes NAME.ktx2 with so many levels after the first, and NAME.json, a matt material of it. */
 static void material_write(const char *name, int levels) {
     WeftImage images[LEVELS + 1];
@@ -41,12 +50,9 @@ static void material_write(const char *name, int levels) {
     snprintf(path, sizeof path, "%s.ktx2", name);
     if (weft_image_write_as(path, &images[0], &how, &error) != WEFT_OK) fail_msg("%s", error.text);
     for (int k = 0; k <= LEVELS; k++) weft_image_free(&images[k]);
-    snprintf(path, sizeof path, "%s.json", name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fprintf(file, "{\"base_color\": {\"texture\": \"%s.ktx2\"}, \"roughness\": 1, \"specular\": 0, \"reflectance\": 0}",
-            name);
-    assert_int_equal(fclose(file), 0);
+    char json[64];
+    snprintf(json, sizeof json, "%s.json", name);
+    texture_say(json, path, "\"levels\": true");
 }
 
 /* A square whose texture has so many texels across a pixel, in even light. */
@@ -70,27 +76,9 @@ static WeftScene *square(const char *material, double across) {
     return scene;
 }
 
-static WeftImage traced(const WeftScene *scene) {
-    const WeftRenderDesc desc = {.width = SIDE, .height = SIDE, .camera = CAMERA, .max_depth = 1, .threads = 2};
-    WeftRender *render;
-    WeftImage image;
-    assert_int_equal(weft_render_create(scene, &desc, &render, NULL), WEFT_OK);
-    assert_int_equal(weft_render_run(render, 16, 0.0, NULL, NULL), WEFT_OK);
-    assert_int_equal(weft_render_image(render, &image, NULL), WEFT_OK);
-    weft_render_free(render);
-    return image;
-}
+static WeftImage traced(const WeftScene *scene) { return square_traced(scene, SIDE, CAMERA, 16); }
 
-static WeftImage drawn(const WeftScene *scene) {
-    const WeftRasterView view = {.width = SIDE, .height = SIDE, .samples = 4, .camera = CAMERA, .no_shadows = 1};
-    WeftRaster *raster;
-    WeftImage image;
-    assert_int_equal(weft_raster_create(scene, &(WeftRasterDesc){.no_cache = 1}, &raster, NULL, NULL), WEFT_OK);
-    assert_int_equal(weft_raster_draw(raster, &view, NULL), WEFT_OK);
-    assert_int_equal(weft_raster_image(raster, &image, NULL), WEFT_OK);
-    weft_raster_free(raster);
-    return image;
-}
+static WeftImage drawn(const WeftScene *scene) { return square_drawn(scene, SIDE, CAMERA); }
 
 static double linear(int byte) { return pow((byte / 255.0 + 0.055) / 1.055, 2.4); }
 
@@ -166,15 +154,6 @@ static void raster_engine_heeds_samplers(void **state) {
     (void)state;
     need_gl();
     samplers_without_levels(drawn, "drawn");
-}
-
-/* Writes the material NAME.json whose texture is a file, with `more` said of it. */
-static void texture_say(const char *name, const char *texture, const char *more) {
-    FILE *file = fopen(name, "w");
-    assert_non_null(file);
-    fprintf(file, "{\"base_color\": {\"texture\": \"%s\", %s}, \"roughness\": 1, \"specular\": 0, \"reflectance\": 0}",
-            texture, more);
-    assert_int_equal(fclose(file), 0);
 }
 
 /* A material file says it by a word, and no other than true or false. */
@@ -349,13 +328,10 @@ static void saved_scenes_keep_the_file(void **state) {
     weft_scene_free(scene);
 }
 
-static int enter(void **state) {
-    static char folder[SCRATCH_SIZE];
-    *state = folder;
+static int begin(void **state) {
     gl_begin(state);
-    return scratch_enter(folder) ? 0 : -1;
+    return scratch_group_begin(state);
 }
-static int leave(void **state) { return chdir("/") == 0 && scratch_remove(*state) ? 0 : -1; }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
@@ -366,5 +342,5 @@ int main(void) {
         cmocka_unit_test(damaged_levels_are_left_out),        cmocka_unit_test(glossiness_is_not_read_as_roughness),
         cmocka_unit_test(levels_that_end_early_are_left_out), cmocka_unit_test(saved_scenes_keep_the_file),
     };
-    return cmocka_run_group_tests(tests, enter, leave);
+    return cmocka_run_group_tests(tests, begin, scratch_group_end);
 }

@@ -231,6 +231,20 @@ static void polygon_behind_shines_through_cloth(void **state) {
     assert_true(off < 0.04);
 }
 
+/* Returns the light in the middle of a sheet of the scene's last material before an even sky. Frees the scene. */
+static float middle_before_sky(WeftScene *scene) {
+    test_quad(scene, vec3(-2.0f, -2.0f, 0.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 4.0f, 0.0f));
+    scene_bounds(scene);
+    test_environment(scene, 1.0f);
+    WeftRaster *raster = raster_of(scene);
+    WeftImage image = drawn(raster, &view);
+    const float middle = ((const float *)image.pixels)[4 * (SIDE / 2 * SIDE + SIDE / 2)];
+    weft_image_free(&image);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+    return middle;
+}
+
 /* A sheet before an even sky: half of its light comes back, six tenths of the other half through. */
 static void sky_behind_shines_through_cloth(void **state) {
     (void)state;
@@ -239,16 +253,8 @@ static void sky_behind_shines_through_cloth(void **state) {
     Material *sheet = test_material(scene, 1.0f);
     sheet->inputs[INPUT_diffuse_transmission].value[0] = 0.5f;
     test_color(sheet, INPUT_diffuse_transmission_color, 0.6f);
-    test_quad(scene, vec3(-2.0f, -2.0f, 0.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 4.0f, 0.0f));
-    scene_bounds(scene);
-    test_environment(scene, 1.0f);
-    WeftRaster *raster = raster_of(scene);
-    WeftImage image = drawn(raster, &view);
-    float middle = ((const float *)image.pixels)[4 * (SIDE / 2 * SIDE + SIDE / 2)];
+    const float middle = middle_before_sky(scene);
     if (!(fabsf(middle - 0.8f) < 0.008f)) fail_msg("%g is not 0.8", (double)middle);
-    weft_image_free(&image);
-    weft_raster_free(raster);
-    weft_scene_free(scene);
 }
 
 /* A pane and a solid before an even sky, of which the last absorbs a half; either in a colour. */
@@ -264,17 +270,8 @@ static void sky_behind_shines_through_glass(void **state) {
         sheet->inputs[INPUT_thickness].value[0] = solid ? 0.2f : 0.0f;
         sheet->inputs[INPUT_attenuation_distance].value[0] = 0.2f;
         test_color(sheet, INPUT_attenuation_color, 0.5f);
-        test_quad(scene, vec3(-2.0f, -2.0f, 0.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 4.0f, 0.0f));
-        scene_bounds(scene);
-        test_environment(scene, 1.0f);
-        WeftRaster *raster = raster_of(scene);
-        WeftImage image = drawn(raster, &view);
-        const float middle = ((const float *)image.pixels)[4 * (SIDE / 2 * SIDE + SIDE / 2)];
-        const float expected = solid ? 0.4f : 0.8f;
+        const float middle = middle_before_sky(scene), expected = solid ? 0.4f : 0.8f;
         if (!(fabsf(middle - expected) < 0.008f)) fail_msg("%d: %g is not %g", k, (double)middle, (double)expected);
-        weft_image_free(&image);
-        weft_raster_free(raster);
-        weft_scene_free(scene);
     }
 }
 

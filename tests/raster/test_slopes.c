@@ -14,8 +14,8 @@
 
 #include "raster/gl.h"
 #include "raster/material/slopes.h"
+#include "raster/square.h"
 #include "scratch.h"
-#include "trace/scenes.h"
 
 enum { TEXELS = 64, PERIOD = 16, SIDE = 64, SAMPLES = 256 };
 static const char *const CAMERA = "0,2,0.001;0,0,0;43.6"; /* sees 1.6 m */
@@ -92,27 +92,9 @@ static WeftScene *square(Relief relief, float roughness, float across) {
     return scene;
 }
 
-static WeftImage traced(const WeftScene *scene) {
-    const WeftRenderDesc desc = {.width = SIDE, .height = SIDE, .camera = CAMERA, .max_depth = 1, .threads = 2};
-    WeftRender *render;
-    WeftImage image;
-    assert_int_equal(weft_render_create(scene, &desc, &render, NULL), WEFT_OK);
-    assert_int_equal(weft_render_run(render, SAMPLES, 0.0, NULL, NULL), WEFT_OK);
-    assert_int_equal(weft_render_image(render, &image, NULL), WEFT_OK);
-    weft_render_free(render);
-    return image;
-}
+static WeftImage traced(const WeftScene *scene) { return square_traced(scene, SIDE, CAMERA, SAMPLES); }
 
-static WeftImage drawn(const WeftScene *scene) {
-    const WeftRasterView view = {.width = SIDE, .height = SIDE, .samples = 4, .camera = CAMERA, .no_shadows = 1};
-    WeftRaster *raster;
-    WeftImage image;
-    assert_int_equal(weft_raster_create(scene, &(WeftRasterDesc){.no_cache = 1}, &raster, NULL, NULL), WEFT_OK);
-    assert_int_equal(weft_raster_draw(raster, &view, NULL), WEFT_OK);
-    assert_int_equal(weft_raster_image(raster, &image, NULL), WEFT_OK);
-    weft_raster_free(raster);
-    return image;
-}
+static WeftImage drawn(const WeftScene *scene) { return square_drawn(scene, SIDE, CAMERA); }
 
 static int by_size(const void *a, const void *b) {
     const float x = *(const float *)a, y = *(const float *)b;
