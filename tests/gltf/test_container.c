@@ -55,6 +55,38 @@ static void glb_chunks_are_read(void **state) {
     done(reading);
 }
 
+/* A byte order mark before the JSON and zeros behind it, in both containers: each is passed over with a warning. */
+static void marks_and_zeros_about_the_text_are_passed_over(void **state) {
+    (void)state;
+    static const struct {
+        const char *before;
+        size_t zeros;
+        const char *warning;
+    } cases[] = {{"\xef\xbb\xbf", 0, "byte order mark"}, {"", 4, "zeros"}, {"\xef\xbb\xbf ", 4, "byte order mark"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        for (int packed = 0; packed < 2; packed++) {
+            unsigned char bytes[1024], text[1024] = {0};
+            char *whole = json("%s%s%s", cases[k].before, "{'asset':{'version':'2.0'},'nodes':[{'name':'n'}]}", "");
+            const size_t length = strlen(whole);
+            memcpy(text, whole, length);
+            size_t size = length + cases[k].zeros;
+            if (packed) {
+                size = put_chunk(bytes, 12, KIND_JSON, text, size);
+                put_word(bytes, MAGIC), put_word(bytes + 4, 2), put_word(bytes + 8, size);
+            }
+            Reading *reading = read_gltf("marked", packed ? bytes : text, size);
+            assert_read(reading);
+            assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_REPAIRED],
+                             (*cases[k].before != 0) + (cases[k].zeros > 0));
+            assert_non_null(strstr(reading->warning, cases[k].warning));
+            done(reading);
+            free(whole);
+        }
+    /* a mark alone, or before something else, is still no glTF */
+    assert_refused(read_gltf("mark", "\xef\xbb\xbf", 3), WEFT_MESSAGE_SCENE_KIND, "neither");
+    assert_refused(read_gltf("mark", "\xef\xbb\xbfP6", 5), WEFT_MESSAGE_SCENE_KIND, "neither");
+}
+
 static void damaged_glb_is_refused(void **state) {
     (void)state;
     unsigned char bytes[1024];
@@ -325,6 +357,7 @@ static void scene_from_no_bytes_is_refused_whatever_its_name(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(glb_chunks_are_read),
+        cmocka_unit_test(marks_and_zeros_about_the_text_are_passed_over),
         cmocka_unit_test(damaged_glb_is_refused),
         cmocka_unit_test(text_that_is_no_gltf_is_refused),
         cmocka_unit_test(unsupported_required_extension_is_named),

@@ -42,20 +42,29 @@ static const struct {
     size_t size;
 } methods[] = {{edgebreaker, sizeof edgebreaker}, {sequential, sizeof sequential}};
 
-/* A node with the sheet of these bytes. `views` is what accessors have beside their types: nothing, or a view. */
+/* A node with the sheet of these bytes, whose coordinates are TEXCOORD_n, and whose normal map reads those. `views` is
+ * what accessors have beside their types: nothing, or a view. */
+static Reading *read_sheet_by(int n, const unsigned char *bytes, size_t size, const char *views, int points,
+                              const char *ids) {
+    char map[64] = "";
+    if (n) snprintf(map, sizeof map, "'normalTexture':{'index':0,'texCoord':%d}", n);
+    return read_rest(
+        "'extensionsRequired':['KHR_draco_mesh_compression'],'buffers':[{'byteLength':%zu,'uri':'%s'}],"
+        "'bufferViews':[{'buffer':0,'byteLength':%zu}],"
+        "'accessors':[{'componentType':5126,'count':%d,'type':'VEC3'%s},"
+        "{'componentType':5126,'count':%d,'type':'VEC3'%s},"
+        "{'componentType':5126,'count':%d,'type':'VEC2'%s},"
+        "{'componentType':5121,'normalized':true,'count':%d,'type':'VEC4'%s},"
+        "{'componentType':5121,'count':24,'type':'SCALAR'%s}],"
+        "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_%d':2,'COLOR_0':3},"
+        "'indices':4,'material':0,'extensions':{'KHR_draco_mesh_compression':{'bufferView':0,'attributes':%s}}}]}],"
+        "'materials':[{%s}],'textures':[{}],"
+        "'nodes':[{'mesh':0},{'mesh':0,'translation':[0,0,5]}]",
+        size, uri(bytes, size), size, points, views, points, views, points, views, points, views, views, n, ids, map);
+}
+
 static Reading *read_sheet(const unsigned char *bytes, size_t size, const char *views, int points, const char *ids) {
-    return read_rest("'extensionsRequired':['KHR_draco_mesh_compression'],'buffers':[{'byteLength':%zu,'uri':'%s'}],"
-                     "'bufferViews':[{'buffer':0,'byteLength':%zu}],"
-                     "'accessors':[{'componentType':5126,'count':%d,'type':'VEC3'%s},"
-                     "{'componentType':5126,'count':%d,'type':'VEC3'%s},"
-                     "{'componentType':5126,'count':%d,'type':'VEC2'%s},"
-                     "{'componentType':5121,'normalized':true,'count':%d,'type':'VEC4'%s},"
-                     "{'componentType':5121,'count':24,'type':'SCALAR'%s}],"
-                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_0':2,'COLOR_0':3},"
-                     "'indices':4,'extensions':{'KHR_draco_mesh_compression':{'bufferView':0,'attributes':%s}}}]}],"
-                     "'nodes':[{'mesh':0},{'mesh':0,'translation':[0,0,5]}]",
-                     size, uri(bytes, size), size, points, views, points, views, points, views, points, views, views,
-                     ids);
+    return read_sheet_by(0, bytes, size, views, points, ids);
 }
 
 static const char all[] = "{'POSITION':0,'NORMAL':1,'TEXCOORD_0':2,'COLOR_0':3}";
@@ -89,6 +98,21 @@ static void meshes_of_both_methods_are_decoded(void **state) {
         }
         done(reading);
     }
+}
+
+/* Coordinates beyond the first two sets: the second of the mesh, since the material reads no other. */
+static void coordinates_of_any_set_are_decoded(void **state) {
+    (void)state;
+    Reading *reading = read_sheet_by(5, edgebreaker, sizeof edgebreaker, "", 9, "{'POSITION':0,'TEXCOORD_5':2}");
+    assert_read(reading);
+    const Mesh *mesh = reading->scene->meshes;
+    assert_null(mesh->texcoord[0]);
+    for (uint32_t v = 0; v < 9; v++)
+        assert_all_near(mesh->texcoord[1] + 2 * v,
+                        (const float[2]){mesh->position[3 * v], 1.0f - mesh->position[3 * v + 1]}, 2, 3e-3f);
+    done(reading);
+    assert_refused(read_sheet_by(5, edgebreaker, sizeof edgebreaker, "", 9, "{'POSITION':0,'TEXCOORD_5':77}"),
+                   WEFT_MESSAGE_GLTF_DECODE, "lacks an attribute");
 }
 
 /* An attribute that is not compressed is that of its accessor: here zeros. */
@@ -168,6 +192,7 @@ static void accessors_with_data_are_the_fallback(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(meshes_of_both_methods_are_decoded),
+        cmocka_unit_test(coordinates_of_any_set_are_decoded),
         cmocka_unit_test(attributes_beside_the_compressed_ones_are_kept),
         cmocka_unit_test(data_that_do_not_fit_the_primitive_are_refused),
         cmocka_unit_test(damaged_data_are_refused),

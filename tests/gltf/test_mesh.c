@@ -232,6 +232,57 @@ static void quantized_attributes_are_read(void **state) {
     done(reading);
 }
 
+/* --- sets of texture coordinates --- */
+
+/* The square's coordinates under a name, and the set of the mesh that they become; -1: none. */
+static void materials_read_any_two_sets(void **state) {
+    (void)state;
+    static const struct {
+        const char *materials; /* of the primitive; then that of its variant */
+        int named, becomes;
+        const char *warning;
+    } cases[] = {
+        {"{'occlusionTexture':{'index':0}},{}", 0, 0, NULL},
+        {"{'occlusionTexture':{'index':0,'texCoord':1}},{}", 1, 1, NULL},
+        {"{'occlusionTexture':{'index':0,'texCoord':2}},{}", 2, 1, NULL},
+        {"{'occlusionTexture':{'index':0,'texCoord':2}},{}", 0, 0, NULL},
+        {"{'occlusionTexture':{'index':0,'texCoord':2},'emissiveTexture':{'index':0,'texCoord':7}},{}", 7, 0, NULL},
+        {"{'occlusionTexture':{'index':0,'extensions':{'KHR_texture_transform':{'texCoord':3}}}},{}", 3, 1, NULL},
+        {"{'extras':{'weft':{'back':{'occlusionTexture':{'index':0,'texCoord':3}}}}},{}", 3, 1, NULL},
+        {"{'normalTexture':{'index':0},'occlusionTexture':{'index':0,'texCoord':1},"
+         "'emissiveTexture':{'index':0,'texCoord':2}},{}",
+         2, -1, "materials[0].emissiveTexture: TEXCOORD_2, but the material reads TEXCOORD_0 and 1 already"},
+        {"{'occlusionTexture':{'index':0}},{'occlusionTexture':{'index':0,'texCoord':4}}", 4, 1, NULL},
+        {"{'occlusionTexture':{'index':0,'texCoord':2}},{'occlusionTexture':{'index':0,'texCoord':4}}", 4, -1,
+         "attributes: materials of its variants need more sets"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Reading *reading = read_rest(
+            SQUARE_DATA
+            ",'textures':[{}],'materials':[%s],'extensions':{'KHR_materials_variants':{'variants':[{'name':'a'}]}},"
+            "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_%d':2},'indices':3,"
+            "'material':0,'extensions':{'KHR_materials_variants':{'mappings':[{'material':1,'variants':[0]}]}}}]}],"
+            "'nodes':[{'mesh':0}]",
+            uri(&square, sizeof square), cases[k].materials, cases[k].named);
+        assert_read(reading);
+        if (cases[k].warning) assert_non_null(strstr(reading->warning, cases[k].warning));
+        for (int set = 0; set < 2; set++) {
+            const float *uv = reading->scene->meshes[0].texcoord[set];
+            if (set != cases[k].becomes)
+                assert_null(uv);
+            else
+                assert_all_near(uv, square.texcoord, 8, 0.0f);
+        }
+        done(reading);
+    }
+    /* what no material reads is checked all the same */
+    assert_refused(read_rest(SQUARE_DATA ",'textures':[{}],'materials':[{'occlusionTexture':{'index':0,'texCoord':2}}],"
+                                         "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_1':0},"
+                                         "'indices':3,'material':0}]}],'nodes':[{'mesh':0}]",
+                             uri(&square, sizeof square)),
+                   WEFT_MESSAGE_GLTF_SCHEMA, "TEXCOORD_1: accessor 0 is not of type VEC2");
+}
+
 /* --- tangents --- */
 
 /* Needs tangents, by a texture whose image is never asked for: it has no source. */
@@ -522,6 +573,7 @@ int main(void) {
         cmocka_unit_test(missing_or_zero_normals_are_repaired),
         cmocka_unit_test(vertex_colours_are_read),
         cmocka_unit_test(quantized_attributes_are_read),
+        cmocka_unit_test(materials_read_any_two_sets),
         cmocka_unit_test(missing_tangents_are_made),
         cmocka_unit_test(vertices_shared_by_mirrored_maps_are_split),
         cmocka_unit_test(degenerate_texture_coordinates_give_finite_tangents),

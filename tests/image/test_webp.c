@@ -66,7 +66,60 @@ static void damaged_webp_is_refused(void **state) {
     }
     static const unsigned char animated[] = "RIFF\x2e\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\x0f\0\0\x0f\0\0"
                                             "ANIM\x06\0\0\0\0\0\0\0\0\0ANMF\0\0\0\0";
-    refuse_bytes(animated, sizeof animated - 1, WEFT_MESSAGE_IMAGE_UNSUPPORTED);
+    refuse_bytes(animated, sizeof animated - 1, WEFT_MESSAGE_IMAGE_DAMAGED);
+}
+
+static void put_number(Bytes *bytes, int number, int count) {
+    for (int k = 0; k < count; k++) put_byte(bytes, number >> (8 * k) & 255);
+}
+
+/* Puts a picture as a frame of an animation, at an even place of the canvas. */
+static void frame_put(Bytes *bytes, const Bytes *picture, int left, int top) {
+    enum { RIFF_HEADER = 12, FRAME_HEADER = 16, MILLISECONDS = 100 };
+    const int size = (int)picture->size - RIFF_HEADER;
+    put_text(bytes, "ANMF");
+    put_number(bytes, FRAME_HEADER + size, 4);
+    put_number(bytes, left / 2, 3), put_number(bytes, top / 2, 3);
+    put_number(bytes, WIDTH - 1, 3), put_number(bytes, HEIGHT - 1, 3), put_number(bytes, MILLISECONDS, 3);
+    put_byte(bytes, 0);
+    put(bytes, picture->data + RIFF_HEADER, (size_t)size);
+}
+
+/* The canvas is larger than the first frame, by 4 columns on its left and 2 rows above. */
+static void animated_webp_shows_its_first_picture_with_a_warning(void **state) {
+    (void)state;
+    enum { LEFT = 4, TOP = 2, ANIMATION = 2, ALPHA = 16 };
+    unsigned char pixels[2][WIDTH * HEIGHT * 4];
+    Bytes bytes = {.size = 0};
+    pixels_make(pixels[0], 4);
+    for (size_t k = 0; k < sizeof pixels[1]; k++) pixels[1][k] = (unsigned char)(255 - pixels[0][k]);
+    put_text(&bytes, "RIFF....WEBPVP8X");
+    put_number(&bytes, 10, 4), put_number(&bytes, ANIMATION | ALPHA, 4);
+    put_number(&bytes, WIDTH + LEFT - 1, 3), put_number(&bytes, HEIGHT + TOP - 1, 3);
+    put_text(&bytes, "ANIM");
+    put_number(&bytes, 6, 4), put_number(&bytes, 0, 6);
+    for (int k = 0; k < 2; k++) {
+        const Bytes picture = webp_make(pixels[k], 4, true);
+        frame_put(&bytes, &picture, k ? 0 : LEFT, k ? 0 : TOP);
+    }
+    for (int k = 0; k < 4; k++) bytes.data[4 + k] = (unsigned char)((bytes.size - 8) >> (8 * k) & 255);
+    int warnings = 0;
+    const WeftLog log = {count_warning, &warnings};
+    WeftImage image;
+    WeftError error = {0};
+    if (weft_image_read_memory(bytes.data, bytes.size, "bytes", &image, &log, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    assert_int_equal(warnings, 1);
+    assert_shape(&image, WIDTH + LEFT, HEIGHT + TOP, 4, WEFT_PIXEL_U8);
+    for (int y = 0; y < HEIGHT + TOP; y++)
+        for (int x = 0; x < WIDTH + LEFT; x++) {
+            const unsigned char *got = (unsigned char *)image.pixels + 4 * (y * (WIDTH + LEFT) + x);
+            const bool beside = x < LEFT || y < TOP;
+            const unsigned char *want = pixels[0] + (beside ? 0 : 4 * ((y - TOP) * WIDTH + x - LEFT));
+            assert_int_equal(got[3], beside ? 0 : want[3]);
+            for (int c = 0; c < 3 && got[3]; c++) assert_int_equal(got[c], want[c]);
+        }
+    weft_image_free(&image);
 }
 
 /* 16383 x 16383 pixels of a file of 30 bytes. */
@@ -80,6 +133,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(webp_of_every_form_is_read),
         cmocka_unit_test(damaged_webp_is_refused),
+        cmocka_unit_test(animated_webp_shows_its_first_picture_with_a_warning),
         cmocka_unit_test(webp_of_a_false_size_is_refused_before_memory_is_taken),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -141,8 +141,17 @@ static const Case cases[] = {
     {WEFT_FINDING_VALUE_RANGE, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_coat':{'coatFactor':1,'coatIor':0.5}}",
      "'KHR_materials_coat'", NULL, NULL, COLORS},
     {WEFT_FINDING_TEXTURE_UNSHOWN,
-     TWO_SIDED "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorTexture':{'index':0,'texCoord':2}}", NULL,
+     TWO_SIDED "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorTexture':{'index':0,'texCoord':2}},"
+               "'emissiveFactor':[1,1,1],'emissiveTexture':{'index':0},'extensions':{'KHR_materials_specular':"
+               "{'specularColorTexture':{'index':0,'texCoord':3}}}",
+     "'KHR_materials_specular'",
+     "'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_0':2,'TEXCOORD_2':2,'TEXCOORD_3':2},'indices':3,'material':0",
+     NULL, COLORS},
+    {-1, TWO_SIDED "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorTexture':{'index':0,'texCoord':2}}", NULL,
      "'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_2':2},'indices':3,'material':0", NULL, COLORS},
+    {WEFT_FINDING_TEXCOORD_MISSING,
+     TWO_SIDED "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorTexture':{'index':0,'texCoord':2}}", NULL, NULL,
+     NULL, COLORS},
     {WEFT_FINDING_TEXTURE_CHANNEL,
      TWO_SIDED CLOTH ",'extensions':{'KHR_materials_specular':{'specularTexture':{'index':0}}}",
      "'KHR_materials_specular'", NULL, NULL, GREY},

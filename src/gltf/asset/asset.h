@@ -103,6 +103,7 @@ typedef struct DracoSource {
 typedef struct Primitive {
     int mode; /* of the specification: 4 triangles, 5 strip, 6 fan; the others have no surface */
     int position, normal, tangent, texcoord[2], color, index; /* accessors, -1: absent */
+    int set[2];                                               /* of texcoord: n of TEXCOORD_n */
     int joints[SKIN_SETS], weights[SKIN_SETS];
     int material;                      /* of the scene */
     int *variant_material;             /* as in Mesh */
@@ -181,7 +182,11 @@ typedef struct Asset {
     size_t buffer_count, view_count, accessor_count, image_count, sampler_count, texture_count, material_count,
         mesh_count, skin_count, camera_count, light_count, node_count;
     bool *material_shown; /* material_count + 1, the last for surfaces without a material */
-    Material **backs;     /* of materials from behind, material_count + 1; NULL: it has none of its own */
+    int (*material_sets)
+        [2];          /* material_count + 1: n of the TEXCOORD_n that textures of a material call sets 0 and 1, -1:
+                                none does */
+    int *sets;        /* of the material that is read */
+    Material **backs; /* of materials from behind, material_count + 1; NULL: it has none of its own */
 } Asset;
 
 /* Records a sticky failure, of which the first is kept. detail is a printf format or NULL. */

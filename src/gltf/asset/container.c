@@ -12,8 +12,22 @@
  * bounds the memory of the tree. The largest real scenes have tens of thousands of nodes. */
 enum { JSON_VALUES_MAX = 4000000 };
 
+/* Takes away what some exporters put around the text and glTF forbids, with a warning: a byte order mark before it, and
+ * zeros behind it, which are to be blanks in a GLB. */
+static Span text_trim(const Asset *asset, Span text) {
+    const size_t mark = mark_size(text.data, text.size), whole = text.size;
+    while (text.size && !text.data[text.size - 1]) text.size--;
+    if (text.size < whole)
+        warn(asset->log, WEFT_MESSAGE_GLTF_WARN_REPAIRED, asset->name, "zeros end its JSON; glTF has blanks there");
+    if (mark)
+        warn(asset->log, WEFT_MESSAGE_GLTF_WARN_REPAIRED, asset->name,
+             "its JSON begins with a byte order mark, which glTF forbids");
+    return (Span){text.data + mark, text.size - mark};
+}
+
 static void json_read(Asset *asset, Span text) {
     size_t values = 0;
+    text = text_trim(asset, text);
     asset->text = text;
     for (size_t i = 0; i < text.size; i++) values += text.data[i] == ',' || text.data[i] == '[' || text.data[i] == '{';
     if (values > JSON_VALUES_MAX) {
@@ -87,11 +101,7 @@ void container_read(Asset *asset, Span data) {
         glb_read(asset, data);
         return;
     }
-    if (mark_size(data.data, data.size)) {
-        asset_fail(asset, WEFT_MESSAGE_GLTF_JSON, "it begins with a byte order mark, which glTF forbids");
-        return;
-    }
-    size_t blank = 0;
+    size_t blank = mark_size(data.data, data.size);
     while (blank < data.size && data.data[blank] && strchr(" \t\r\n", data.data[blank])) blank++;
     if (blank < data.size && data.data[blank] == '{')
         json_read(asset, data);

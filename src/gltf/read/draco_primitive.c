@@ -1,6 +1,7 @@
 #include "gltf/read/draco_primitive.h"
 
 #include <stddef.h>
+#include <stdio.h>
 
 #include "base/fail.h"
 #include "gltf/asset/accessor.h"
@@ -24,6 +25,14 @@ static const struct {
     {"WEIGHTS_1", offsetof(Primitive, weights) + sizeof(int)},
 };
 
+/* Returns the name of an attribute; that of coordinates is written to text. */
+static const char *name_of(const Primitive *p, size_t attribute, char text[24]) {
+    const size_t first = offsetof(Primitive, texcoord), at = attributes[attribute].offset;
+    if (at != first && at != first + sizeof(int)) return attributes[attribute].name;
+    snprintf(text, 24, "TEXCOORD_%d", p->set[at != first]);
+    return text;
+}
+
 static int *slot_of(Primitive *p, size_t attribute) { return (int *)((char *)p + attributes[attribute].offset); }
 
 void draco_read(const Field *field, Primitive *p) {
@@ -36,7 +45,8 @@ void draco_read(const Field *field, Primitive *p) {
     draco->view = field_needed_index(&view, asset->view_count);
     if (!list.json) field_fail(&list, WEFT_MESSAGE_GLTF_SCHEMA, "missing an object");
     for (size_t k = 0; k < DRACO_ATTRIBUTES && asset->result == WEFT_OK; k++) {
-        Field id = field_member(&list, attributes[k].name);
+        char text[24];
+        Field id = field_member(&list, name_of(p, k, text));
         draco->id[k] = (int64_t)field_size(&id, 0, 0, UINT32_MAX);
         if (!id.json || *slot_of(p, k) < 0) draco->id[k] = -1;
         if (id.json && *slot_of(p, k) < 0)

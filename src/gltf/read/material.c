@@ -8,6 +8,7 @@
 
 #include "gltf/asset/field.h"
 #include "gltf/asset/material_fields.h"
+#include "gltf/read/coordinates.h"
 #include "gltf/read/glossiness.h"
 #include "scene/material/backs.h"
 #include "scene/material/cloth_file.h"
@@ -53,10 +54,14 @@ static void texture_read(const Field *field, Input *input, int channel) {
     if (transform.json) transform_read(&transform, input);
     field_keys(field, keys);
     picture_check(field, input->texture);
-    if (input->texcoord <= 1) return;
-    field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "TEXCOORD_%d, only 0 and 1 are read", input->texcoord);
-    input->texture = 0;
-    input->texcoord = 0;
+    const int set = coordinates_choose(field->asset, input->texcoord);
+    if (set < 0) {
+        field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED,
+                   "TEXCOORD_%d, but the material reads TEXCOORD_%d and %d already", input->texcoord,
+                   field->asset->sets[0], field->asset->sets[1]);
+        input->texture = 0;
+    }
+    input->texcoord = set < 0 ? 0 : set;
 }
 
 /* Beyond these, numbers that glTF leaves unlimited are clamped: angles and the strength of a normal map. */
@@ -172,7 +177,8 @@ static void whole_input_read(const Field *field, InputId id, Input *input) {
     for (int c = 0; c < count; c++) input->value[c] = input_clamped(id, input->value[c]);
     field_floats(&transform, input->transform, 6, -most, most);
     input->texture = field_index(&texture, field->asset->texture_count) + 1;
-    input->texcoord = (int)field_size(&texcoord, 0, 0, 1);
+    const int set = coordinates_choose(field->asset, (int)field_size(&texcoord, 0, 0, 1));
+    input->texcoord = set < 0 ? 0 : set;
     input->channel = (uint8_t)field_size(&channel, 0, 0, 3);
     input->given = field_bool(&given, false);
 }
@@ -302,12 +308,14 @@ void materials_read(Asset *asset) {
     scene->materials = asset_array(asset, &scene->arena, asset->material_count + 1, sizeof(Material));
     scene->material_names = asset_array(asset, &scene->arena, asset->material_count + 1, sizeof(char *));
     asset->material_shown = asset_array(asset, &asset->arena, asset->material_count + 1, sizeof(bool));
+    asset->material_sets = asset_array(asset, &asset->arena, asset->material_count + 1, sizeof *asset->material_sets);
     asset->backs = asset_array(asset, &asset->arena, asset->material_count + 1, sizeof(Material *));
     for (size_t i = 0; i <= asset->material_count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&list, i);
         if (i < asset->material_count && !json_is_object(field.json))
             field_fail(&field, WEFT_MESSAGE_GLTF_SCHEMA, "expected an object");
         Field name = field_member(&field, "name");
+        coordinates_begin(asset, i);
         scene->materials[i] = material_read(&field);
         back_read(&field, i);
         scene->material_names[i] = asset_text(asset, field_text(&name, ""));

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "gltf/asset/field.h"
+#include "gltf/read/coordinates.h"
 #include "gltf/read/draco_primitive.h"
 
 void variants_read(Asset *asset) {
@@ -21,9 +21,7 @@ void variants_read(Asset *asset) {
     scene->variant_count = asset->result == WEFT_OK ? (int)count : 0;
 }
 
-/* Returns the accessor of an attribute: vectors of low to high components, as many as there are positions
- * (count 0: any number). Returns -1 if the attribute is absent or after a sticky failure. */
-static int attribute_read(const Field *attributes, const char *name, int low, int high, size_t count) {
+int attribute_read(const Field *attributes, const char *name, int low, int high, size_t count) {
     Asset *asset = attributes->asset;
     Field field = field_member(attributes, name);
     int index = field_index(&field, asset->accessor_count);
@@ -121,17 +119,16 @@ static void primitive_read(const Field *field, Primitive *p) {
     size_t count = p->position < 0 ? 0 : asset->accessors[p->position].count;
     p->normal = attribute_read(&attributes, "NORMAL", 3, 3, count);
     p->tangent = attribute_read(&attributes, "TANGENT", 4, 4, count);
-    p->texcoord[0] = attribute_read(&attributes, "TEXCOORD_0", 2, 2, count);
-    p->texcoord[1] = attribute_read(&attributes, "TEXCOORD_1", 2, 2, count);
     p->color = attribute_read(&attributes, "COLOR_0", 3, 4, count);
     skin_sets_read(&attributes, p, count);
     targets_read(&targets, p, count);
     attributes_check(&attributes);
     indices_read(&indices, p);
-    draco_read(field, p);
     p->material = field_index(&material, asset->material_count);
     if (p->material < 0) p->material = (int)asset->material_count;
     variants_map(&variants, p);
+    coordinates_read(&attributes, count, p);
+    draco_read(field, p);
     if (p->mode < 4)
         field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "points and lines are not shown");
     else if (p->position < 0 && asset->result == WEFT_OK)

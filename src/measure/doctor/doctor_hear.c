@@ -111,7 +111,7 @@ static void texture_found(WeftDoctor *doctor, const MaterialField *row, Place pl
     doctor_found(doctor, WEFT_FINDING_TEXTURE_UNSHOWN, place, 0, (double)NAN, NULL,
                  coordinates ? "%s is shown without its picture: %s" : "%s has no picture: %s", name, words);
     doctor_advise(doctor, "%s",
-                  coordinates ? "read the texture by TEXCOORD_0 or TEXCOORD_1"
+                  coordinates ? "read the textures of a material by two sets at most"
                               : "give the texture a plain source too, a PNG or JPEG");
 }
 

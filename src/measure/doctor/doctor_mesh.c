@@ -24,6 +24,13 @@ static int set_of(json_t *info) {
     return set >= 0.0 && set < 1e6 ? (int)set : -1;
 }
 
+/* Returns true if a set that textures are read by is invalid, or the primitive lacks it. */
+static bool is_missing(const Primitive *p, int set) {
+    bool missing = set < 0;
+    for (int k = 0; k < 2; k++) missing = missing || (p->set[k] == set && p->texcoord[k] < 0);
+    return missing;
+}
+
 /* Returns true if a texture of the material needs a set of texture coordinates that the primitive lacks,
  * and then sets its key and set. */
 static bool lacks_set(json_t *part, const Primitive *p, const char **key, int *set) {
@@ -35,7 +42,7 @@ static bool lacks_set(json_t *part, const Primitive *p, const char **key, int *s
         if (length > 7 && strcmp(name + length - 7, "Texture") == 0 && json_object_get(value, "index")) {
             *set = set_of(value);
             *key = name;
-            if (*set < 0 || (*set < 2 && p->texcoord[*set] < 0)) return true;
+            if (is_missing(p, *set)) return true;
         } else if (lacks_set(value, p, key, set)) {
             return true;
         }
