@@ -8,6 +8,7 @@
 
 #include "image/ktx2/ktx2.h"
 #include "image/ktx2/uastc_etc1.h"
+#include "scene/record/levels.h"
 
 /* What a file says of itself; 0 is what a plain picture of one level has. */
 typedef struct Plan {
@@ -196,6 +197,38 @@ static void levels_and_faces_are_found(void **state) {
     const Bytes other = file_of(&multiplied, levels);
     image = read_bytes_said(&other, "multiplied by alpha");
     weft_image_free(&image);
+}
+
+static void levels_said(void *user, WeftMessage message, const char *text) {
+    assert_int_equal(message, WEFT_MESSAGE_IMAGE_REPAIRED);
+    snprintf(user, 200, "%s", text);
+}
+
+/* The picture is read all the same, and one line tells which level is not. */
+static void damaged_levels_are_told(void **state) {
+    (void)state;
+    Bytes levels[2] = {{.size = 0}, {.size = 0}};
+    for (int k = 0; k < 4; k++) put_byte(&levels[0], k);
+    put_byte(&levels[1], 100);
+    for (int damaged = 0; damaged < 2; damaged++) {
+        const Plan plan = {.format = 9, .width = 2, .height = 2, .levels = 2, .scheme = 2};
+        Bytes bytes = file_of(&plan, levels);
+        size_t magic = bytes.size - 4; /* of Zstandard, before the last level */
+        while (memcmp(bytes.data + magic, "\x28\xb5\x2f\xfd", 4) != 0) magic--;
+        if (damaged) bytes.data[magic] ^= 1;
+        char said[200] = "";
+        const WeftLog log = {levels_said, said};
+        TextureLevels *own;
+        WeftImage image;
+        WeftError error;
+        if (levels_decode(bytes.data, bytes.size, "x.ktx2", &image, &own, &log, &error) != WEFT_OK)
+            fail_msg("%s", error.text);
+        assert_shape(&image, 2, 2, 1, WEFT_PIXEL_U8);
+        assert_true((own == NULL) == (damaged == 1));
+        assert_true((strstr(said, "x.ktx2: was repaired: mip level 1 ") == said) == (damaged == 1));
+        levels_free(own);
+        weft_image_free(&image);
+    }
 }
 
 /* A block of each mode, and its texels of red, green, blue and alpha. */
@@ -573,6 +606,7 @@ int main(void) {
         cmocka_unit_test(packed_floats_are_read),
         cmocka_unit_test(orientation_turns_the_picture),
         cmocka_unit_test(levels_and_faces_are_found),
+        cmocka_unit_test(damaged_levels_are_told),
         cmocka_unit_test(uastc_of_every_mode_is_decoded),
         cmocka_unit_test(uastc_of_fewer_channels_and_sides_is_cut),
         cmocka_unit_test(etc1s_is_decoded),

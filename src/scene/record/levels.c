@@ -3,19 +3,25 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fail.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "image/halve.h"
 #include "image/ktx2/ktx2.h"
 
-/* Reads a level after the first. Returns false unless it is half of the one before, and of its kind. */
-static bool level_read(const Ktx2 *file, int level, const WeftImage *before, WeftImage *out) {
-    return ktx2_picture(file, level, 0, out, NULL) == WEFT_OK && out->width == halved(before->width) &&
-           out->height == halved(before->height) && out->channels == before->channels && out->type == before->type;
+/* Reads a level after the first. Returns NULL, or why it cannot be used: it is not whole, or not half of the one before and
+ * of its kind. */
+static const char *level_read(const Ktx2 *file, int level, const WeftImage *before, WeftImage *out) {
+    WeftError why;
+    if (ktx2_picture(file, level, 0, out, &why) != WEFT_OK) return weft_message_text(why.message);
+    return out->width == halved(before->width) && out->height == halved(before->height) &&
+                   out->channels == before->channels && out->type == before->type
+               ? NULL
+               : "is not half of the one before";
 }
 
-/* Reads all levels of a file that has as many as the picture halves. Returns NULL unless they are whole. */
-static TextureLevels *levels_of(const Ktx2 *file, const WeftImage *picture) {
+/* Reads all levels of a file that has as many as the picture halves. Returns NULL, with a warning, unless they are whole. */
+static TextureLevels *levels_of(const Ktx2 *file, const WeftImage *picture, const WeftLog *log) {
     const ImageSource *source = file->source;
     int count = 0;
     for (int w = picture->width, h = picture->height; w > 1 || h > 1; w = halved(w), h = halved(h)) count++;
@@ -25,12 +31,14 @@ static TextureLevels *levels_of(const Ktx2 *file, const WeftImage *picture) {
     levels->images = alloc_array((size_t)count, sizeof *levels->images);
     levels->file = alloc_array(source->size, 1);
     levels->size = source->size;
-    bool whole = levels->images && levels->file;
-    for (; whole && levels->count < count; levels->count++)
-        whole = level_read(file, levels->count + 1, levels->count ? &levels->images[levels->count - 1] : picture,
-                           &levels->images[levels->count]);
-    if (whole) memcpy(levels->file, source->data, source->size);
-    if (whole) return levels;
+    const char *why = levels->images && levels->file ? NULL : weft_message_text(WEFT_MESSAGE_MEMORY);
+    for (; !why && levels->count < count; levels->count++)
+        why = level_read(file, levels->count + 1, levels->count ? &levels->images[levels->count - 1] : picture,
+                         &levels->images[levels->count]);
+    if (!why) memcpy(levels->file, source->data, source->size);
+    if (!why) return levels;
+    warn(log, WEFT_MESSAGE_IMAGE_REPAIRED, source->name, "mip level %d %s; means of the picture are drawn in its place",
+         levels->count, why);
     levels_free(levels);
     return NULL;
 }
@@ -42,7 +50,7 @@ WeftResult levels_decode(const void *data, size_t size, const char *name, WeftIm
     *levels = NULL;
     const WeftResult result = weft_image_read_memory(data, size, name, out, log, error);
     if (result == WEFT_OK && ktx2_starts(data, size) && ktx2_open(&source, &file, NULL) == WEFT_OK)
-        *levels = levels_of(&file, out);
+        *levels = levels_of(&file, out, log);
     return result;
 }
 

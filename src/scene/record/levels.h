@@ -14,8 +14,8 @@ typedef struct TextureLevels {
 } TextureLevels;
 
 /* Decodes a picture as weft_image_read_memory does, and its levels. *levels is NULL where the bytes are no KTX 2 file, lack
- * a level down to a single texel, are damaged after the first or memory is short: the picture alone then is drawn.
- * Release it with levels_free. */
+ * a level down to a single texel, or, with a warning, are damaged after the first or memory is short: the picture alone then
+ * is drawn. Release it with levels_free. */
 WeftResult levels_decode(const void *data, size_t size, const char *name, WeftImage *out, TextureLevels **levels,
                          const WeftLog *log, WeftError *error);
 
