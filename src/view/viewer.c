@@ -259,6 +259,7 @@ Viewer *viewer_create(const ViewDesc *desc) {
                             .dialogs = &states->dialogs,
                             .drag = &states->drag,
                             .stills = &states->stills,
+                            .bakings = &states->bakings,
                             .leaving = &states->leaving,
                             .sessions = &states->sessions,
                             .photographs = &states->photographs,

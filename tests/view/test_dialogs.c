@@ -162,6 +162,20 @@ static void a_weave_is_baked_into_the_saved_file(void **state) {
     assert_false(ever(&drive, BAKES, NULL));
 }
 
+/* Closing the window asks first, and the file comes if the answer is to stay. */
+static void a_file_that_is_being_baked_is_not_lost_without_a_question(void **state) {
+    (void)state;
+    need_gl();
+    Ran ran = RUN("render", "builtin:ball", "--preset", "woven-denim", "--save", "jeans.glb");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+    drive_through("wait rest\nkey control+s\nwait 4\nclick \"" BAKES "\"\nwait 4\nclick \"Save the scene/Save\"\n"
+                  "wait 2\nclose\nwait 3\nwindow asks.png\nclick \"Unsaved changes/Cancel\"\n"
+                  "wait message woven material baked\n",
+                  LIST(UNSEEN, "jeans.glb"));
+    assert_int_equal(access("jeans-weft.glb", F_OK), 0);
+}
+
 static void saving_goes_to_the_folder_that_is_shown(void **state) {
     (void)state;
     need_gl();
@@ -180,6 +194,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_bookmark_and_words_find_a_file_by_keys_and_by_mouse),
                                        cmocka_unit_test(saving_asks_before_it_replaces_a_file),
                                        cmocka_unit_test(a_weave_is_baked_into_the_saved_file),
+                                       cmocka_unit_test(a_file_that_is_being_baked_is_not_lost_without_a_question),
                                        cmocka_unit_test(saving_goes_to_the_folder_that_is_shown)};
     return cmocka_run_group_tests_name("view/dialogs", tests, dialogs_set_up, drive_end);
 }

@@ -2,14 +2,12 @@
 #pragma once
 
 #include "view/render/baking.h"
-#include "view/state/viewer.h"
+#include "view/state/copies.h"
 
 typedef struct BakingsState {
-    char scene[STATE_PATH]; /* the copy that the renderer saves first */
-    char path[STATE_PATH];
-    bool has_due;
-    unsigned number; /* of the scene that is being saved; a task of an earlier one is dropped */
-    Baking *baking;  /* NULL: none */
+    SceneCopy copy;        /* that the renderer saves first */
+    char path[STATE_PATH]; /* the file to write */
+    Baking *baking;        /* NULL: none */
 } BakingsState;
 
 /* Returns true if a material of the scene is woven. */
@@ -20,6 +18,9 @@ void bakings_save(Viewer *v, const char *path);
 
 /* Starts the thread, when the scene was saved to `scene`; failed: it was not. */
 void bakings_copied(Viewer *v, const char *scene, bool failed);
+
+/* Returns true while a file is baked, or is due. */
+bool bakings_busy(const Viewer *v);
 
 /* Takes the end. Returns true if there was one. */
 bool bakings_poll(Viewer *v);

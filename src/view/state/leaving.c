@@ -23,7 +23,7 @@ void leaving_cancel(Viewer *v) { v->states->leaving = (LeavingState){0}; }
 void leaving_stop_waiting(Viewer *v) { v->states->leaving.saves = false; }
 
 void leaving_quit(Viewer *v) {
-    if (!edit_is_unsaved(v) && !v->stills->still && !v->stills->has_due) {
+    if (!edit_is_unsaved(v) && !stills_busy(v) && !bakings_busy(v)) {
         viewer_quit(v);
         return;
     }
@@ -84,6 +84,10 @@ static void draw_text(const Viewer *v) {
     if (v->stills->still && v->leaving->what == LEAVING_WINDOW) {
         snprintf(text, sizeof text, "A path-traced picture is being made, %.0f %% of it so far; it would be lost.",
                  100.0 * v->stills->share);
+        ui_wrapped(text);
+    }
+    if (bakings_busy(v) && v->leaving->what == LEAVING_WINDOW) {
+        snprintf(text, sizeof text, "%.200s is being baked; it would not be written.", path_name(v->bakings->path));
         ui_wrapped(text);
     }
     ui_dim(" ");

@@ -9,7 +9,7 @@ typedef struct LeavingState {
     bool saves;            /* the dialog that saves is open, or the renderer saves */
 } LeavingState;
 
-/* Closes the window; asks first if changes are not saved, or a picture is being made. */
+/* Closes the window; asks first if changes are not saved, or a picture or a baked file is being made. */
 void leaving_quit(Viewer *v);
 
 /* Asks whether to leave the scene for another if changes are not saved. Returns false if there is nothing to ask. */

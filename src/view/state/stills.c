@@ -5,12 +5,6 @@
 
 #include "view/state/states.h"
 
-/* Forgets a picture whose scene is still to be saved. */
-static void forget_due(StillsState *stills) {
-    if (stills->has_due) still_discard(stills->due.scene);
-    stills->has_due = false;
-}
-
 /* Returns what the window shows, in the size and quality of a choice. */
 static StillDesc desc_of(const Viewer *v, const StillChoice *choice) {
     const bool color = v->options->background == WEFT_BACKGROUND_COLOR;
@@ -34,7 +28,7 @@ static StillDesc desc_of(const Viewer *v, const StillChoice *choice) {
 
 void stills_make(Viewer *v, const char *path, const StillChoice *choice) {
     StillsState *stills = &v->states->stills;
-    if (stills->still || (stills->has_due && stills->scene == v->shown->number)) {
+    if (stills->still || copy_is_due(v, &stills->copy)) {
         viewer_report(v, true, "a picture is being made; cancel it, or wait for it");
         return;
     }
@@ -44,33 +38,20 @@ void stills_make(Viewer *v, const char *path, const StillChoice *choice) {
         viewer_report(v, true, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
         return;
     }
-    if (!still_folder(due.scene)) {
-        viewer_report(v, true, "no temporary folder can be made for a copy of the scene");
-        return;
-    }
-    Task task = {.kind = TASK_COPY, .scene = v->shown->number};
-    snprintf(task.path, sizeof task.path, "%s", due.scene);
-    forget_due(stills); /* of a scene before this one */
+    if (!copy_request(v, &stills->copy)) return;
+    snprintf(due.scene, sizeof due.scene, "%s", stills->copy.path);
     stills->due = due;
-    stills->scene = v->shown->number;
-    stills->has_due = renderer_add_task(v->renderer, &task);
-    if (stills->has_due) return;
-    still_discard(due.scene);
-    viewer_report(v, true, "too much is still to be done: try again");
 }
 
 void stills_saved(Viewer *v, const char *scene, bool failed) {
     StillsState *stills = &v->states->stills;
-    if (!stills->has_due || strcmp(scene, stills->due.scene) != 0) return;
-    stills->has_due = false;
+    if (!copy_arrives(&stills->copy, scene, failed)) return;
     stills->share = 0.0;
-    if (failed) {
-        still_discard(scene);
-        return;
-    }
     stills->still = still_start(&stills->due, v->window);
     if (!stills->still) viewer_report(v, true, "out of memory");
 }
+
+bool stills_busy(const Viewer *v) { return v->stills->still || v->stills->copy.due; }
 
 bool stills_poll(Viewer *v) {
     StillsState *stills = &v->states->stills;
@@ -98,5 +79,5 @@ void stills_cancel(Viewer *v) {
 
 void stills_end(Viewer *v) {
     stills_cancel(v);
-    forget_due(&v->states->stills);
+    copy_forget(&v->states->stills.copy);
 }

@@ -2,12 +2,11 @@
 #pragma once
 
 #include "view/render/still.h"
-#include "view/state/viewer.h"
+#include "view/state/copies.h"
 
 typedef struct StillsState {
-    StillDesc due; /* sent to the renderer, which saves the scene first */
-    bool has_due;
-    unsigned scene; /* number of the scene that is being saved; a task of an earlier one is dropped */
+    SceneCopy copy; /* that the renderer saves first */
+    StillDesc due;  /* what is made from the copy */
     Still *still;   /* NULL: none */
     double share;   /* of its samples, 0 to 1 */
 } StillsState;
@@ -18,6 +17,9 @@ void stills_make(Viewer *v, const char *path, const StillChoice *choice);
 
 /* Starts the thread, when the scene was saved to `scene`; failed: it was not. */
 void stills_saved(Viewer *v, const char *scene, bool failed);
+
+/* Returns true while a picture is made or due. */
+bool stills_busy(const Viewer *v);
 
 /* Takes progress and end of the picture. Returns true if something changed. */
 bool stills_poll(Viewer *v);

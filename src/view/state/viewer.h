@@ -46,6 +46,7 @@ typedef struct Viewer {
     const struct DialogsState *dialogs;
     const struct DragState *drag;
     const struct StillsState *stills;
+    const struct BakingsState *bakings;
     const struct LeavingState *leaving;
     const struct SessionsState *sessions;
     const struct PhotographsState *photographs;
