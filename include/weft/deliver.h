@@ -28,12 +28,12 @@ typedef struct WeftDelivered {
     double even_sky;
 } WeftDelivered;
 
-/* The outcome for a target. Texts are owned, UTF-8, and have a line for each item. */
+/* The outcome for a target. */
 typedef struct WeftDelivery {
     WeftDelivered *materials; /* material_count of them */
     int material_count;       /* of the file */
-    char *extensions;         /* those that the written file uses */
-    char *lost;               /* things of the original that the target does not show, a sentence each */
+    char *extensions;         /* those that the written file uses, UTF-8, a line each; owned */
+    WeftLosses losses;        /* things of the original that the target does not show, by its materials */
 } WeftDelivery;
 
 /* Converts the glTF file at `path` for a target, by its index, and writes it to `out`, a .glb or .gltf. `from` is the
@@ -57,10 +57,12 @@ WEFT_API WeftResult weft_deliver(const char *path, const char *out, int from, in
  * (Marc Olano, Dan Baker, "LEAN Mapping", I3D 2010, for one width). Only where the deviation of slopes exceeds
  * WEFT_FINE_SLOPES, sides are multiples of 4, and a map of roughness has the place of the normal map and is no finer, or
  * there is none. Materials share maps that are equal at all levels; images that nothing names any more stay. Both
- * maps then are KTX 2 files by KHR_texture_basisu, with PNGs beside. *count: materials that were changed; if none, `out` is
- * written as it was. Fails as reading and writing a file do. */
+ * maps then are KTX 2 files by KHR_texture_basisu, with PNGs beside, and delivery (may be NULL), which weft_deliver filled for
+ * the file, lists that among its extensions. *count (may be NULL): materials that were changed; if none, `out` is written as
+ * it was. Fails as reading and writing a file do. */
 #define WEFT_FINE_SLOPES 0.15
-WEFT_API WeftResult weft_deliver_levels(const char *path, const char *out, int *count, WeftError *error);
+WEFT_API WeftResult weft_deliver_levels(const char *path, const char *out, WeftDelivery *delivery, int *count,
+                                        WeftError *error);
 
 /* Releases what a delivery owns. delivery may be NULL. */
 WEFT_API void weft_delivery_free(WeftDelivery *delivery);

@@ -25,6 +25,7 @@
 #include <stdint.h>
 
 #include "weft/lobe.h"
+#include "weft/loss.h"
 #include "weft/material.h"
 #include "weft/reflection.h"
 
@@ -135,7 +136,10 @@ typedef struct WeftBaking {
     const char *profile; /* of the viewer, which must read glTF's metallic; NULL: khronos */
     int levels;   /* not 0: KTX 2 files with mip levels of their own in place of PNG, but of height and other face */
     int one_face; /* not 0: the front alone, for files that have no place for the other face */
-    const WeftLog *log; /* weft_scene_bake: is warned of what the textures lack; NULL: none */
+    WeftLosses *losses; /* weft_scene_bake: is given what the textures lack; NULL: none */
+    WeftProgress
+        progress; /* receives the finished fraction of the search, and can stop it, WEFT_INTERRUPTED; NULL: none */
+    void *user;   /* given to it */
 } WeftBaking;
 
 /* The distance of the maps from the cloth, as seen from afar: the mean over five directions of light and an even sky of
@@ -159,17 +163,16 @@ typedef struct WeftBaked {
  * holes. The rotation of the weave is left out. With `levels` sides are multiples of 4, the first four files of the
  * front end in .ktx2 (UASTC in Zstandard, as KHR_texture_basisu takes it), and each mip level is fitted like the
  * whole: its texels shade as the cloth does from afar, in the mean, with the contrast of the threads at that size.
- * found, of the front, may be NULL. The same arguments give the same files. Fails with WEFT_MESSAGE_DESC (no cloth, a
+ * found, of the front, may be NULL. What is stopped has written nothing. The same arguments give the same files. Fails with WEFT_MESSAGE_DESC (no cloth, a
  * number out of range, a profile that is not one or does not read metallic), _PARAM_VALUE, _FILE_WRITE or _MEMORY. */
 WEFT_API WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *cloth, const WeftBaking *baking,
                                        const char *folder, WeftBaked *found, WeftError *error);
 
 /* Bakes the weave of a material of a scene, 0 .. material_count - 1, into a folder as weft_material_bake does, and gives
- * the material the textures in its place. Fuzz, coat and emission stay as they are, and are left out of the fit. Dust, wear
- * and textures of other inputs are left out of both, with a warning each (WeftBaking.log). metres of 0 are those of the
+ * the material the textures in its place. Fuzz, coat and emission stay as they are, and are left out of the fit. Dust, wear,
+ * the rotation of the weave and textures of other inputs are left out of both (WeftBaking.losses). metres of 0 are those of the
  * weave. The scene has read the textures: the folder may be removed. Where it fails the material may be either. Fails as
- * weft_material_bake and weft_scene_assign_material do, and with WEFT_MESSAGE_DESC if
- * another material has this one's number as its name, by which it would be assigned to as well. */
+ * weft_material_bake and weft_scene_assign_material do. */
 WEFT_API WeftResult weft_scene_bake(WeftScene *scene, int material, const WeftBaking *baking, const char *folder,
                                     WeftBaked *found, WeftError *error);
 

@@ -33,6 +33,7 @@
 #include "weft/isa.h"
 #include "weft/judge.h"
 #include "weft/lobe.h"
+#include "weft/loss.h"
 #include "weft/ltc.h"
 #include "weft/match.h"
 #include "weft/material.h"

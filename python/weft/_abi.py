@@ -280,6 +280,22 @@ class WeftChartEntry(Structure):
     ]
 
 
+class WeftLoss(Structure):
+    _fields_ = [
+        ("material", c_int),
+        ("name", (c_char * 64)),
+        ("what", (c_char * 64)),
+        ("why", (c_char * 256)),
+    ]
+
+
+class WeftLosses(Structure):
+    _fields_ = [
+        ("items", POINTER(WeftLoss)),
+        ("count", c_int),
+    ]
+
+
 class WeftMoment(Structure):
     _fields_ = [
         ("animation", c_char_p),
@@ -483,7 +499,7 @@ class WeftBaking(Structure):
         ("profile", c_char_p),
         ("levels", c_int),
         ("one_face", c_int),
-        ("log", POINTER(WeftLog)),
+        ("losses", POINTER(WeftLosses)),
     ]
 
 
@@ -520,7 +536,7 @@ class WeftDelivery(Structure):
         ("materials", POINTER(WeftDelivered)),
         ("material_count", c_int),
         ("extensions", c_void_p),
-        ("lost", c_void_p),
+        ("losses", WeftLosses),
     ]
 
 
@@ -1659,6 +1675,9 @@ CALLS = {
     "weft_bake_form": (c_int, (POINTER(WeftAlbedoFormDesc), POINTER(WeftAlbedoForm), POINTER(WeftError),)),
     "weft_form_at": (c_float, (POINTER(WeftAlbedoForm), c_float, c_float,)),
     "weft_chart": (POINTER(WeftChartEntry), (c_int,)),
+    "weft_losses_add": (c_int, (POINTER(WeftLosses), c_int, c_char_p, c_char_p, c_char_p,)),
+    "weft_losses_hear": (c_int, (POINTER(WeftLosses), c_int, c_char_p, c_char_p, c_int, c_char_p,)),
+    "weft_losses_free": (None, (POINTER(WeftLosses),)),
     "weft_scene_load": (c_int, (c_char_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_scene_load_watched": (c_int, (c_char_p, WeftProgress, c_void_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_scene_load_moment": (c_int, (c_char_p, POINTER(WeftMoment), WeftProgress, c_void_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
@@ -1779,7 +1798,7 @@ CALLS = {
     "weft_scene_bake": (c_int, (c_void_p, c_int, POINTER(WeftBaking), c_char_p, POINTER(WeftBaked), POINTER(WeftError),)),
     "weft_target_info": (c_int, (c_int, POINTER(WeftTarget),)),
     "weft_deliver": (c_int, (c_char_p, c_char_p, c_int, c_int, c_int, WeftProgress, c_void_p, POINTER(WeftDelivery), POINTER(WeftLog), POINTER(WeftError),)),
-    "weft_deliver_levels": (c_int, (c_char_p, c_char_p, c_void_p, POINTER(WeftError),)),
+    "weft_deliver_levels": (c_int, (c_char_p, c_char_p, POINTER(WeftDelivery), c_void_p, POINTER(WeftError),)),
     "weft_delivery_free": (None, (POINTER(WeftDelivery),)),
     "weft_metric_name": (c_char_p, (c_int,)),
     "weft_diff": (c_int, (POINTER(WeftDiffDesc), POINTER(WeftDiff), POINTER(WeftImage), POINTER(WeftError),)),

@@ -117,8 +117,8 @@ static bool is_within(int at, const char *folder) {
 /* Returns true if a file of that folder may include "path". */
 static bool may_include(int at, const char *path) {
     if (strncmp(path, "weft/", 5) == 0) return true;
-    static const char *const alone[] = {"base/steady_clock.h", "base/pi.h", "base/path.h", "base/stream_reason.h",
-                                        "base/printable.h"};
+    static const char *const alone[] = {"base/steady_clock.h",  "base/pi.h",        "base/path.h",
+                                        "base/stream_reason.h", "base/printable.h", "base/folder.h"};
     for (size_t k = 0; k < sizeof alone / sizeof *alone; k++)
         if (strcmp(path, alone[k]) == 0) return true;
     if (strncmp(path, "half/", 5) == 0) return is_within(at, "measure");  /* generated */

@@ -163,12 +163,28 @@ static void a_material_is_baked_as_its_weave(void **state) {
     assert_true(scratch_remove("maps"));
 }
 
+/* Ctrl-C while the numbers of the maps are searched. */
+static void an_interrupted_bake_leaves_nothing(void **state) {
+    (void)state;
+    pid_t child =
+        program_start(WEFT_PROGRAM, NULL, LIST("weave", "preset:woven-denim", "--bake", "half", "--size", "1024"));
+    await_handler(child);
+    sleep_seconds(0.2);
+    kill(child, SIGINT);
+    Ran ran = program_end(child);
+    assert_int_equal(ran.code, 130);
+    assert_true(one_complaint(ran.err) && strstr(ran.err, "half: interrupted; nothing was written"));
+    ran_free(&ran);
+    assert_int_not_equal(access("half", F_OK), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bake_writes_a_u3m_of_both_faces),
         cmocka_unit_test(json_has_the_properties_of_the_draft),
         cmocka_unit_test(draft_written_in_another_form_reads_as_the_same),
         cmocka_unit_test(a_material_is_baked_as_its_weave),
+        cmocka_unit_test(an_interrupted_bake_leaves_nothing),
         cmocka_unit_test(impossible_weave_commands_are_errors_of_one_line),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);

@@ -51,28 +51,14 @@ static void textures_take_the_place_of_threads_below_the_fuzz(void **state) {
 
 static int input(const char *name) { return weft_material_input_find(name); }
 
-/* Counts warnings, and keeps the last. */
-typedef struct Warned {
-    int count;
-    char last[256];
-} Warned;
-
-static void warned(void *user, WeftMessage message, const char *text) {
-    Warned *self = user;
-    (void)message;
-    self->count++;
-    snprintf(self->last, sizeof self->last, "%s", text);
-}
-
 /* Bakes poplin below what is given. Returns what the fit found. */
-static WeftBaked bake_below(float emission, float dust, const char *to, WeftMaterial *baked, Warned *warnings) {
-    const WeftLog log = {.fn = warned, .user = warnings};
+static WeftBaked bake_below(float emission, float dust, const char *to, WeftMaterial *baked, WeftLosses *losses) {
     WeftBaking baking = small;
     WeftBaked found = {0};
     WeftError error;
     WeftScene *scene = scene_of("preset:woven-poplin");
     WeftMaterial material = material_of(scene);
-    baking.log = &log;
+    baking.losses = losses;
     material.inputs[input("emission")].value[0] = emission;
     material.inputs[input("emission_strength")].value[0] = 2.0f;
     material.inputs[input("dust")].value[0] = dust;
@@ -87,17 +73,86 @@ static WeftBaked bake_below(float emission, float dust, const char *to, WeftMate
 static void inputs_over_threads_are_kept_or_said_to_be_lost(void **state) {
     (void)state;
     WeftMaterial glowing, dusty;
-    Warned none = {0}, one = {0};
+    WeftLosses none = {0}, lost = {0};
     const WeftBaked without = bake_below(1.0f, 0.0f, "glowing", &glowing, &none);
     assert_float_equal(glowing.inputs[input("emission")].value[0], 1.0f, 1e-6f);
     assert_float_equal(glowing.inputs[input("emission_strength")].value[0], 2.0f, 1e-6f);
     assert_int_equal(none.count, 0);
-    const WeftBaked with = bake_below(0.0f, 0.8f, "dusty", &dusty, &one);
+    const WeftBaked with = bake_below(0.0f, 0.8f, "dusty", &dusty, &lost);
     assert_true(with.sky <= without.sky && with.sky >= without.sky);
     assert_float_equal(dusty.inputs[input("dust")].value[0], 0.0f, 0.0f);
     assert_int_equal(system("cmp glowing/base_color.png dusty/base_color.png"), 0);
-    assert_int_equal(one.count, 1);
-    if (!strstr(one.last, "dust of 0.8 is not baked")) fail_msg("%s", one.last);
+    assert_int_equal(lost.count, 1);
+    assert_int_equal(lost.items[0].material, 0);
+    assert_string_equal(lost.items[0].name, "cloth");
+    assert_string_equal(lost.items[0].what, "dust");
+    assert_string_equal(lost.items[0].why, "0.8 of it is not baked");
+    weft_losses_free(&lost);
+}
+
+/* A triangle in a material named "a", and one in a material named after the number of the first; the first is rotated poplin. */
+static WeftScene *scene_with_a_number_for_a_name(void) {
+    static const char text[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":0},"
+        "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":1}]}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[-1,-1,0],"
+        "\"max\":[1,1,0]},{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":"
+        "\"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA\"}],"
+        "\"materials\":[{\"name\":\"a\"},{\"name\":\"0\"}]}";
+    FILE *file = fopen("two.gltf", "wb");
+    WeftScene *scene;
+    WeftError error;
+    assert_non_null(file);
+    assert_true(fwrite(text, 1, sizeof text - 1, file) == sizeof text - 1);
+    assert_int_equal(fclose(file), 0);
+    WeftResult result = weft_scene_load("two.gltf", &scene, NULL, &error);
+    if (result == WEFT_OK) result = weft_scene_assign_material(scene, "a", "preset:woven-poplin", NULL, &error);
+    if (result == WEFT_OK) result = weft_scene_weave(scene, "a", "rotation", "30", NULL, &error);
+    if (result != WEFT_OK) fail_msg("%s", error.text);
+    return scene;
+}
+
+/* Only the material of that index is baked, whatever others are called, and its rotation is said to be lost. */
+static void a_name_that_is_a_number_is_another_material(void **state) {
+    (void)state;
+    WeftLosses losses = {0};
+    WeftBaking baking = small;
+    WeftMaterial second;
+    WeftError error;
+    WeftScene *scene = scene_with_a_number_for_a_name();
+    baking.losses = &losses;
+    if (weft_scene_bake(scene, 0, &baking, "maps-two", NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_not_equal(material_of(scene).inputs[input("base_color")].texture, 0);
+    assert_int_equal(weft_scene_material(scene, 1, &second, &error), WEFT_OK);
+    assert_int_equal(second.inputs[input("base_color")].texture, 0);
+    assert_int_equal(losses.count, 1);
+    assert_string_equal(losses.items[0].what, "rotation");
+    assert_string_equal(losses.items[0].name, "a");
+    if (!strstr(losses.items[0].why, "rotated by 30 degrees")) fail_msg("%s", losses.items[0].why);
+    weft_losses_free(&losses);
+    weft_scene_free(scene);
+}
+
+static int stop_soon(void *user, double fraction) {
+    int *calls = user;
+    assert_true(fraction >= 0.0 && fraction <= 1.0);
+    return ++*calls > 1;
+}
+
+/* The search ends soon, the material keeps its threads, and no folder is made for maps that do not come. */
+static void a_stopped_search_leaves_no_maps(void **state) {
+    (void)state;
+    WeftBaking baking = {.pixels = 256, .levels = 1, .progress = stop_soon};
+    WeftError error;
+    WeftScene *scene = scene_of("preset:woven-poplin");
+    int calls = 0;
+    baking.user = &calls;
+    assert_int_equal(weft_scene_bake(scene, 0, &baking, "stopped", NULL, &error), WEFT_INTERRUPTED);
+    assert_int_not_equal(access("stopped", F_OK), 0);
+    assert_int_not_equal(material_of(scene).cloth, 0);
+    weft_scene_free(scene);
 }
 
 static void an_unwoven_material_is_refused(void **state) {
@@ -119,6 +174,8 @@ static void an_unwoven_material_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(textures_take_the_place_of_threads_below_the_fuzz),
                                        cmocka_unit_test(inputs_over_threads_are_kept_or_said_to_be_lost),
+                                       cmocka_unit_test(a_name_that_is_a_number_is_another_material),
+                                       cmocka_unit_test(a_stopped_search_leaves_no_maps),
                                        cmocka_unit_test(an_unwoven_material_is_refused)};
     return cmocka_run_group_tests_name("measure/scene_bake", tests, scratch_group_begin, scratch_group_end);
 }

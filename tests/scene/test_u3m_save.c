@@ -320,10 +320,10 @@ static void other_materials_become_principled_and_their_losses_are_said(void **s
     save(scene, "m.u3m");
     by_the_schema("m.u3m");
     expect_said("its own shading: U3M has the principled shader");
-    expect_said("sheen_roughness, for which U3M has no word");
-    expect_said("emission, for which U3M has no word");
-    expect_said("retroreflection, for which U3M has no word");
-    expect_said("coat_color, for which U3M has no word");
+    expect_said("sheen_roughness: U3M has no word for it");
+    expect_said("emission: U3M has no word for it");
+    expect_said("retroreflection: U3M has no word for it");
+    expect_said("coat_color: U3M has no word for it");
     assert_int_equal(u3m_load("m.u3m", &file, NULL, &error), WEFT_OK);
     const Input *in = file.material.inputs;
     near(in[INPUT_specular].value[0], 0.5f); /* F0 = 4 % of 8 % */
@@ -402,7 +402,7 @@ static void a_weave_tells_its_construction(void **state) {
     assert_int_equal(weft_scene_weave(scene, "0", "", "twill 3/1 s; warp 1#2030c0; weft 1#f0f0f0", NULL, &error),
                      WEFT_OK);
     assert_int_equal(weft_scene_save_u3m(scene, 0, "w.u3m", NULL, &counting, &error), WEFT_OK);
-    expect_said("its threads, of which a U3M has the construction");
+    expect_said("its threads: a U3M has their construction");
     by_the_schema("w.u3m");
     FileBytes bytes = bytes_of("w.u3m");
     assert_true(strstr((char *)bytes.data, "\"Twill - left hand (S)\"") && strstr((char *)bytes.data, "\"Cotton\""));

@@ -7,11 +7,11 @@
 #define _XOPEN_SOURCE 700
 #include "cli/run.h"
 
-#include <ftw.h>
 #include <jansson.h>
 #include <math.h>
 #include <sys/stat.h>
 
+#include "base/folder.h"
 #include "raster/gl.h"
 #include "weft/weft.h"
 
@@ -23,14 +23,9 @@
 
 static inline int drive_begin(void **state) { return work_begin(state) || gl_begin(state) ? -1 : 0; }
 
-static inline int drive_remove(const char *path, const struct stat *s, int kind, struct FTW *at) {
-    (void)s, (void)kind, (void)at;
-    return remove(path);
-}
-
 static inline int drive_end(void **state) {
     (void)state;
-    return chdir("/") == 0 ? nftw(work_folder, drive_remove, 16, FTW_DEPTH | FTW_PHYS) : -1;
+    return chdir("/") == 0 && folder_remove_all(work_folder) ? 0 : -1;
 }
 
 /* A window that is being driven. */

@@ -1,13 +1,13 @@
 /* deliver_folder.c - the files of a delivery, which are made in a folder of their own and then given their places */
 #define _XOPEN_SOURCE 700 /* nftw, mkdtemp */
 #include <errno.h>
-#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/folder.h"
 #include "cli/console/output.h"
 #include "cli/console/report.h"
 #include "cli/deliver/delivery.h"
@@ -45,9 +45,14 @@ static int place_probe(const Delivery *delivery, const char *target, const char 
 }
 
 int folder_begin(Delivery *delivery) {
+    struct stat status;
     if (strlen(delivery->folder) > 3800) return report(WEFT_USAGE, "-o: the name is too long");
     delivery->made = mkdir(delivery->folder, 0777) == 0;
-    if (!delivery->made && errno != EEXIST) return unwritten(delivery->folder);
+    if (!delivery->made && (errno != EEXIST || stat(delivery->folder, &status) != 0))
+        return unwritten(delivery->folder);
+    if (!delivery->made && !S_ISDIR(status.st_mode))
+        return report(WEFT_RESOURCES, "%.400s: is a file; -o names a folder, which is made if it does not exist",
+                      delivery->folder);
     const int result = each_file(delivery, place_probe);
     if (result != 0) return result;
     snprintf(delivery->temporary, sizeof delivery->temporary, "%.3900s/.weft-XXXXXX", delivery->folder);
@@ -65,14 +70,7 @@ static int place_take(const Delivery *delivery, const char *target, const char *
 
 int folder_commit(Delivery *delivery) { return each_file(delivery, place_take); }
 
-static int entry_remove(const char *path, const struct stat *status, int kind, struct FTW *at) {
-    (void)status, (void)kind, (void)at;
-    remove(path);
-    return 0;
-}
-
 void folder_end(Delivery *delivery) {
-    enum { OPEN_MOST = 8 };
-    if (delivery->temporary[0]) nftw(delivery->temporary, entry_remove, OPEN_MOST, FTW_DEPTH | FTW_PHYS);
+    if (delivery->temporary[0]) (void)folder_remove_all(delivery->temporary);
     if (delivery->made) rmdir(delivery->folder); /* stays where it has files */
 }

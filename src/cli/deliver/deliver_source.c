@@ -115,44 +115,33 @@ int source_load(Delivery *delivery, WeftScene **out) {
     return result;
 }
 
-static void loss_add(void *user, WeftMessage message, const char *text) {
-    Delivery *delivery = user;
-    const char *line = loss_text("maps", message, text);
-    const size_t at = strlen(delivery->lost);
-    if (strstr(delivery->lost, line)) return; /* said for an earlier target */
-    snprintf(delivery->lost + at, sizeof delivery->lost - at, "%s%s", at ? "; " : "", line);
-}
-
 /* Gives a woven material the textures of its cloth. */
 static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftBaking *how) {
-    const WeftLog log = {loss_add, delivery};
     WeftBaking baking = *how;
     WeftError error;
-    char folder[DELIVER_PATH], rotated[128];
+    char folder[DELIVER_PATH];
     WeftMaterial material;
-    WeftResult result = weft_scene_material(scene, index, &material, &error);
+    const WeftResult result = weft_scene_material(scene, index, &material, &error);
     if (result != WEFT_OK || !material.cloth) return told(result, &error);
-    const WeftClothInfo info = weft_scene_cloth_info(scene, material.cloth);
     baking.pixels = delivery->pixels;
-    baking.log = &log;
+    baking.losses = &delivery->losses;
+    baking.progress = delivery_heed;
+    baking.user = delivery;
     snprintf(folder, sizeof folder, "%.3900s/bake-%.32s-%d-%d-%d", delivery->temporary, baking.profile, baking.levels,
              baking.one_face, index);
-    result = weft_scene_bake(scene, index, &baking, folder, NULL, &error);
-    if (info.rotation > 0.0f || info.rotation < 0.0f) {
-        snprintf(rotated, sizeof rotated, "weaves are not rotated: that of material %d by %g degrees", index,
-                 (double)info.rotation);
-        loss_add(delivery, WEFT_MESSAGE_NONE, rotated);
-    }
-    return told(result, &error);
+    return told(weft_scene_bake(scene, index, &baking, folder, NULL, &error), &error);
 }
 
 int source_bake(Delivery *delivery, const WeftBaking *how, WeftScene **out) {
     int result = source_load(delivery, out);
     const int count = result == 0 ? weft_scene_info(*out).material_count : 0;
+    const double low = delivery->low, high = delivery->high, each = (high - low) / (count ? count : 1);
     for (int k = 0; k < count && result == 0; k++) {
+        delivery_part(delivery, low + each * k, low + each * (k + 1));
         result = cloth_bake(delivery, *out, k, how);
-        if (result == 0 && delivery_heed(delivery, (double)(k + 1) / count)) result = WEFT_INTERRUPTED;
+        if (result == 0 && delivery_heed(delivery, 1.0)) result = WEFT_INTERRUPTED;
     }
+    delivery_part(delivery, low, high);
     return result;
 }
 

@@ -9,15 +9,45 @@
 static const char *const view_keys[VIEW_COUNT] = {"near", "far"};
 
 /* Writes the lines of a text as an array. */
-static void lines_write(Json *json, const char *key, const char *text, const char *more) {
+static void lines_write(Json *json, const char *key, const char *text) {
     char line[512];
     json_open(json, key, '[');
-    if (more && *more) json_text(json, NULL, more);
     for (const char *at = text, *end; at && (end = strchr(at, '\n')); at = end + 1) {
         snprintf(line, sizeof line, "%.*s", (int)(end - at), at);
         json_text(json, NULL, line);
     }
     json_close(json, ']');
+}
+
+static bool is_alike(const WeftLoss *a, const WeftLoss *b) {
+    return strcmp(a->what, b->what) == 0 && strcmp(a->why, b->why) == 0;
+}
+
+/* Returns how many materials have lost the same as item k of a list does; 0: an earlier item stands for it. */
+static int loss_count(const WeftLosses *losses, int k) {
+    int count = 0;
+    for (int i = 0; i < losses->count; i++) {
+        if (!is_alike(&losses->items[i], &losses->items[k])) continue;
+        if (i < k) return 0;
+        count++;
+    }
+    return count;
+}
+
+/* Writes what was lost, each thing once with all its materials. */
+static void losses_write(Json *json, const WeftLosses *losses) {
+    for (int k = 0; k < losses->count; k++) {
+        if (loss_count(losses, k) == 0) continue;
+        json_open(json, NULL, '{');
+        json_text(json, "what", losses->items[k].what);
+        json_text(json, "why", losses->items[k].why);
+        json_open(json, "materials", '[');
+        for (int i = k; i < losses->count; i++)
+            if (losses->items[i].material >= 0 && is_alike(&losses->items[i], &losses->items[k]))
+                json_text(json, NULL, losses->items[i].name);
+        json_close(json, ']');
+        json_close(json, '}');
+    }
 }
 
 static void view_write(Json *json, const char *key, const ViewErrors *errors) {
@@ -61,8 +91,11 @@ static void target_file_write(Json *json, const Delivery *delivery, const Target
     for (int v = 0; v < VIEW_COUNT; v++) view_write(json, view_keys[v], &file->errors.views[v]);
     json_number(json, "even_sky", file->errors.sky);
     json_close(json, '}');
-    lines_write(json, "extensions", file->delivery.extensions, NULL);
-    lines_write(json, "lost", file->delivery.lost, delivery->lost);
+    lines_write(json, "extensions", file->delivery.extensions);
+    json_open(json, "lost", '[');
+    losses_write(json, &delivery->losses);
+    losses_write(json, &file->delivery.losses);
+    json_close(json, ']');
     materials_write(json, &file->delivery);
     json_close(json, '}');
 }
@@ -86,7 +119,22 @@ void summary_write(const Delivery *delivery, FILE *stream) {
     json_close(&json, '}');
 }
 
+/* Prints what was lost, a line each; after the first one, indented by so many columns. Returns the count of lines. */
+static int losses_print(const WeftLosses *losses, int materials, int indent) {
+    int lines = 0;
+    for (int k = 0; k < losses->count; k++) {
+        const WeftLoss *loss = &losses->items[k];
+        const int count = loss_count(losses, k);
+        if (count == 0) continue;
+        printf("%*s%s%s%s", lines++ ? indent : 0, "", loss->what, loss->why[0] ? ": " : "", loss->why);
+        if (materials > 1) printf(" (%d of %d materials)", count, materials);
+        printf("\n");
+    }
+    return lines;
+}
+
 void summary_print(const Delivery *delivery) {
+    enum { LOST = 69 }; /* the column of what is lost */
     printf("%-10s %22s %22s %9s  lost\n", "", "near: colour, columns", "far: colour, columns", "even sky");
     for (int k = 0; k < delivery->count; k++) {
         const TargetFile *file = &delivery->files[k];
@@ -95,12 +143,10 @@ void summary_print(const Delivery *delivery) {
         printf("%-10s", target.name);
         for (int v = 0; v < VIEW_COUNT; v++)
             printf(" %11.1f %% %6.1f %%", 100.0 * views[v].color, 100.0 * views[v].profile);
-        printf(" %+7.1f %%", 100.0 * file->errors.sky);
-        const char *line = file->delivery.lost;
-        int column = 2;
-        for (const char *end; line && (end = strchr(line, '\n')); line = end + 1, column = 69)
-            printf("%*s%.*s\n", column, "", (int)(end - line), line);
-        if (column == 2) printf("  nothing\n");
+        printf(" %+7.1f %%  ", 100.0 * file->errors.sky);
+        if (losses_print(&file->delivery.losses, delivery->materials, LOST) == 0) printf("nothing\n");
     }
-    if (delivery->lost[0]) printf("and in all: %s\n", delivery->lost);
+    if (!delivery->losses.count) return;
+    printf("in all: ");
+    losses_print(&delivery->losses, delivery->materials, 8);
 }

@@ -1,5 +1,4 @@
 /* deliver_u3m.c - a U3M among what is delivered: the textile industry's file of one material */
-#define _XOPEN_SOURCE 700
 #include <stdio.h>
 #include <string.h>
 
@@ -18,36 +17,26 @@ WeftTarget file_target(const TargetFile *file) {
 
 const char *file_suffix(const TargetFile *file) { return file->target == TARGET_U3M ? ".u3ma" : ".glb"; }
 
-/* Collects the warnings of a writer as things that are lost, a line each. */
-typedef struct Losses {
-    const char *path; /* of the file that is written, with which warnings begin; it is none yet */
-    FILE *lines;
-} Losses;
-
-const char *loss_text(const char *subject, WeftMessage message, const char *text) {
-    const size_t length = strnlen(subject, 200); /* of which no more is said */
-    if (strncmp(text, subject, length) == 0) text += length;
-    const char *said = strstr(text, weft_message_text(message));
-    if (said) text = said + strlen(weft_message_text(message));
-    return text + strspn(text, ": ");
-}
+/* The warnings of a writer, which tell what is lost. */
+typedef struct Heard {
+    const char *path, *name; /* of the file that is written, with which warnings begin; of the material */
+    WeftLosses *losses;
+    bool short_of; /* memory */
+} Heard;
 
 static void loss_note(void *user, WeftMessage message, const char *text) {
-    const Losses *losses = user;
-    fprintf(losses->lines, "%s\n", loss_text(losses->path, message, text));
+    Heard *heard = user;
+    heard->short_of |= !weft_losses_hear(heard->losses, 0, heard->name, heard->path, message, text);
 }
 
 /* Writes the material of a scene, and collects what the file lacks of it. */
-static int material_write(WeftScene *scene, const char *path, char **lost) {
-    size_t size;
-    Losses losses = {.path = path, .lines = open_memstream(lost, &size)};
-    if (!losses.lines) return report(WEFT_RESOURCES, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_MEMORY));
-    const WeftLog log = {.fn = loss_note, .user = &losses};
+static int material_write(WeftScene *scene, const char *path, WeftLosses *losses) {
+    Heard heard = {.path = path, .name = weft_scene_material_name(scene, 0), .losses = losses};
+    const WeftLog log = {.fn = loss_note, .user = &heard};
     WeftError error;
-    int result = told(weft_scene_save_u3m(scene, 0, path, NULL, &log, &error), &error);
-    const bool whole = fclose(losses.lines) == 0;
-    if (result == 0 && !whole)
-        result = report(WEFT_RESOURCES, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_MEMORY));
+    const int result = told(weft_scene_save_u3m(scene, 0, path, NULL, &log, &error), &error);
+    if (result == 0 && heard.short_of)
+        return report(WEFT_RESOURCES, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_MEMORY));
     return result;
 }
 
@@ -57,7 +46,7 @@ int u3m_write(Delivery *delivery, TargetFile *file, const char *path) {
         return report(WEFT_USAGE, "--to u3m: a U3M holds one material, and %.300s has %d; deliver each by itself",
                       delivery->what, delivery->materials);
     int result = source_bake(delivery, &(WeftBaking){.profile = file_target(file).fit}, &scene);
-    if (result == 0) result = material_write(scene, path, &file->delivery.lost);
+    if (result == 0) result = material_write(scene, path, &file->delivery.losses);
     weft_scene_free(scene);
     return result;
 }

@@ -61,10 +61,10 @@ typedef struct Delivery {
     int pixels, width, height, spp;
     int textures; /* of cloth: of TextureFormat */
     char cameras[VIEW_COUNT][WEFT_CAMERA_TEXT];
-    int materials;  /* of X */
-    bool woven;     /* X has cloth, which is baked for each target by itself */
-    bool all_woven; /* nothing else: all is made for the target, and nothing is converted from another engine */
-    char lost[400]; /* what the original has and its textures lack, sentences; "": nothing */
+    int materials;     /* of X */
+    bool woven;        /* X has cloth, which is baked for each target by itself */
+    bool all_woven;    /* nothing else: all is made for the target, and nothing is converted from another engine */
+    WeftLosses losses; /* what the original has and its textures lack */
     TargetFile files[DELIVER_TARGETS];
     int count;
     Progress progress;
@@ -87,11 +87,8 @@ int told(WeftResult result, const WeftError *error);
 int source_load(Delivery *delivery, WeftScene **out);
 
 /* Reads what is delivered, with its cloth baked. how: the profile, and whether textures have mip levels of their own and
- * the cloth has one face. What the textures lack is added to `lost`. */
+ * the cloth has one face. What the textures lack is added to `losses`. */
 int source_bake(Delivery *delivery, const WeftBaking *how, WeftScene **out);
-
-/* Returns what a warning says, without its subject and the text of its message. */
-const char *loss_text(const char *subject, WeftMessage message, const char *text);
 
 /* Makes the glTF file that the file of a target is made from, and sets its path, and the profile that its numbers are
  * meant for. */

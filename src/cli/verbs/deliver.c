@@ -39,14 +39,17 @@ static int target_named(const char *name, int *out) {
     return report(WEFT_USAGE, "--to %.60s: is not a target; there are %s, u3m%s", name[0] ? name : "\"\"", list, hint);
 }
 
-/* Reads the targets, "three,babylon"; each once. */
+/* Reads the targets, "three,babylon", with blanks about a name or none; each once. */
 static int targets_read(Delivery *delivery) {
     char name[64];
     const char *at = option_text(delivery->options, "--to");
     if (!at) return report(WEFT_USAGE, "--to is required: names of targets, such as three,babylon,filament");
     for (const char *end; at; at = *end ? end + 1 : NULL) {
+        at += strspn(at, " \t");
         end = at + strcspn(at, ",");
-        snprintf(name, sizeof name, "%.*s", (int)(end - at), at);
+        size_t length = (size_t)(end - at);
+        while (length && isblank((unsigned char)at[length - 1])) length--;
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
         int target;
         if (target_named(name, &target) != 0) return WEFT_USAGE;
         for (int k = 0; k < delivery->count; k++)
@@ -123,24 +126,7 @@ static int target_file_load(Delivery *delivery, const TargetFile *file, const ch
     return told(result, &error);
 }
 
-/* Gives fine normal maps of a written file mip levels of their own, and lists what it then uses. */
-static int levels_add(TargetFile *file, const char *path) {
-    static const char line[] = "KHR_texture_basisu\n";
-    WeftError error;
-    int count = 0;
-    if (weft_deliver_levels(path, path, &count, &error) != WEFT_OK) return report_error(&error);
-    char **used = &file->delivery.extensions;
-    if (!count || strstr(*used, line)) return 0;
-    const size_t size = strlen(*used) + sizeof line;
-    char *longer = malloc(size);
-    if (!longer) return report(WEFT_RESOURCES, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_MEMORY));
-    snprintf(longer, size, "%s%s", *used, line);
-    free(*used);
-    *used = longer;
-    return 0;
-}
-
-/* Writes a glTF file from the source that is made for it. */
+/* Writes a glTF file from the source that is made for it, and gives fine normal maps mip levels of their own. */
 static int gltf_write(Delivery *delivery, TargetFile *file, const char *path) {
     char source[DELIVER_PATH];
     int from;
@@ -153,7 +139,8 @@ static int gltf_write(Delivery *delivery, TargetFile *file, const char *path) {
     const int made = told(weft_deliver(source, path, from, file->target, delivery->metric, delivery_heed, delivery,
                                        &file->delivery, NULL, &error),
                           &error);
-    return made == 0 && target_levels(delivery, file) ? levels_add(file, path) : made;
+    if (made != 0 || !target_levels(delivery, file)) return made;
+    return told(weft_deliver_levels(path, path, &file->delivery, NULL, &error), &error);
 }
 
 /* Renders a delivered file as its target shades it, and compares it with the reference. */
@@ -234,6 +221,7 @@ static int deliver_run(const Options *options) {
     else if (result == 0)
         summary_print(&delivery);
     for (int k = 0; k < delivery.count; k++) weft_delivery_free(&delivery.files[k].delivery);
+    weft_losses_free(&delivery.losses);
     return result;
 }
 

@@ -3,8 +3,10 @@
 #include <string.h>
 
 #include "base/path.h"
+#include "cli/console/interrupt.h"
 #include "cli/console/json_writer.h"
 #include "cli/console/output.h"
+#include "cli/console/progress.h"
 #include "cli/console/report.h"
 #include "cli/console/two_columns.h"
 #include "cli/operands/draft_operand.h"
@@ -177,7 +179,13 @@ static int maps_write(Weaving *weaving) {
     snprintf(glb, sizeof glb, "%s/cloth.glb", folder);
     snprintf(u3m, sizeof u3m, "%s/cloth.u3m", folder);
     const WeftLog log = {.fn = report_warning};
+    interrupt_watch();
+    Progress progress = progress_start_count(false, "of the search", 0.0);
+    baking.progress = progress_heed;
+    baking.user = &progress;
     WeftResult result = weft_material_bake(&weaving->material, weaving->cloth, &baking, folder, &weaving->fit, &error);
+    progress_finish(&progress);
+    if (result == WEFT_INTERRUPTED) return report(result, "%.300s: interrupted; nothing was written", folder);
     if (result == WEFT_OK) result = weft_scene_load("builtin:cloth", &scene, &log, &error);
     if (result == WEFT_OK) result = weft_scene_assign_material(scene, NULL, material, &log, &error);
     if (result == WEFT_OK) result = weft_scene_save(scene, glb, &error);

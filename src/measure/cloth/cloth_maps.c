@@ -40,6 +40,8 @@ typedef struct MapBake {
     bool holed;       /* gaps are holes, not black */
     bool leveled;     /* all maps but the height are KTX 2 files with mip levels of their own */
     MapLook look;
+    MapFit *fit;      /* by which it was found; owned */
+    MapLevels levels; /* of a face that has them; owned */
     WeftImage maps[MAP_COUNT];
 } MapBake;
 
@@ -276,42 +278,40 @@ static bool is_holed(const WeftMaterial *material, const WeftCloth *cloth) {
     return gaps && material->alpha_mode != WEFT_ALPHA_OPAQUE;
 }
 
-/* Fits the levels of a face to its look, and writes them. */
-static WeftResult level_face(MapBake *b, MapFit *fit, const char *folder, WeftBaked *found, WeftError *error) {
-    MapLevels levels;
-    WeftResult result = map_levels_find(fit, &b->look, &levels, error);
-    if (result == WEFT_OK) result = write_levels(b, &levels, folder, error);
-    if (result == WEFT_OK) {
-        b->look.normal = levels.normal;
-        b->look.occlusion = 1.0f; /* the map of each level has the strength */
-        for (int k = 1; k < levels.count; k++) found->levels += levels.items[k].error / (levels.count - 1);
-    }
-    map_levels_free(&levels);
-    return result;
-}
-
 /* The viewer that maps are made for. */
 typedef struct MapViewer {
     int profile, pixels;
     double metres;
     bool leveled;
+    ItemProgress item_progress; /* of the searches */
 } MapViewer;
 
-/* Finds the look of a face, and writes its maps. */
-static WeftResult look_face(MapBake *b, const WeftMaterial *material, const WeftCloth *cloth, int profile,
-                            const char *folder, WeftBaked *found, WeftError *error) {
-    MapFit *fit;
-    WeftResult result = map_fit_create(&b->grid, material, cloth, profile, b->holed, &fit, error);
-    if (result == WEFT_OK) map_look_find(fit, &b->look, found);
-    if (result == WEFT_OK) result = bake_face(b, folder, error);
-    if (result == WEFT_OK && b->leveled) result = level_face(b, fit, folder, found, error);
-    map_fit_free(fit);
+/* Finds the look of a face, and its levels. */
+static WeftResult look_face(MapBake *b, const WeftMaterial *material, const WeftCloth *cloth, MapViewer *viewer,
+                            WeftBaked *found, WeftError *error) {
+    WeftResult result = map_fit_create(&b->grid, material, cloth, viewer->profile, b->holed, &b->fit, error);
+    if (result != WEFT_OK) return result;
+    b->fit->item_progress = &viewer->item_progress;
+    map_look_find(b->fit, &b->look, found);
+    if (!progress_report(&viewer->item_progress, 1.0)) return WEFT_INTERRUPTED;
+    if (!b->leveled) return WEFT_OK;
+    result = map_levels_find(b->fit, &b->look, &b->levels, error);
+    for (int k = 1; k < b->levels.count; k++) found->levels += b->levels.items[k].error / (b->levels.count - 1);
     return result;
+}
+
+/* Writes the maps of a face. */
+static WeftResult make_face(MapBake *b, const char *folder, WeftError *error) {
+    WeftResult result = bake_face(b, folder, error);
+    if (result != WEFT_OK || !b->leveled) return result;
+    b->look.normal = b->levels.normal;
+    b->look.occlusion = 1.0f; /* the map of each level has the strength */
+    return write_levels(b, &b->levels, folder, error);
 }
 
 /* Fits and writes the faces of a cloth, for a viewer; the second may be NULL. That one, which glTF has no place for, has no
  * levels. */
-static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *const cloths[2], const MapViewer *viewer,
+static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *const cloths[2], MapViewer *viewer,
                              const char *folder, WeftBaked *found, WeftError *error) {
     const WeftCloth *front = cloths[0];
     const int threads[2] = {cycle_of(front->weave.warps), cycle_of(front->weave.picks)};
@@ -332,11 +332,42 @@ static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *cons
                        .name = k ? back_name : "",
                        .holed = holed,
                        .leveled = viewer->leveled && k == 0};
-        result = look_face(b, material, cloths[k], viewer->profile, folder, &baked[k], error);
+        result = look_face(b, material, cloths[k], viewer, &baked[k], error);
+    }
+    for (int k = 0; k < count && result == WEFT_OK; k++) result = make_face(&faces[k], folder, error);
+    for (int k = 0; k < count; k++) {
+        map_fit_free(faces[k].fit);
+        map_levels_free(&faces[k].levels);
     }
     if (result != WEFT_OK) return result;
     if (found) *found = baked[0];
     return write_material(faces, count, place, folder, error);
+}
+
+/* A cloth to bake, in a thread that is watched. */
+typedef struct ClothBake {
+    const WeftMaterial *material;
+    const WeftCloth *cloths[2];
+    MapViewer viewer;
+    const char *folder;
+    WeftBaked *found;
+    WeftResult result;
+    WeftError error;
+} ClothBake;
+
+static void bake_run(void *user, int item, int thread) {
+    (void)item, (void)thread;
+    ClothBake *self = user;
+    self->result = bake_faces(self->material, self->cloths, &self->viewer, self->folder, self->found, &self->error);
+}
+
+/* Bakes a cloth, and tells the caller how far the search is. */
+static WeftResult bake_watched(ClothBake *self, const WeftBaking *baking, WeftError *error) {
+    LoopWatch watch;
+    self->viewer.item_progress = (ItemProgress){.watch = &watch};
+    (void)watch_loop(&watch, 1, 1, bake_run, self, baking->progress, baking->user);
+    if (self->result != WEFT_OK && self->result != WEFT_INTERRUPTED && error) *error = self->error;
+    return self->result;
 }
 
 WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *cloth, const WeftBaking *baking,
@@ -356,9 +387,10 @@ WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *clo
     const bool made = mkdir(folder, 0777) == 0;
     if (!made && errno != EEXIST) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
     WeftCloth *other = baking->one_face ? NULL : cloth_other_face(cloth);
-    const WeftCloth *const cloths[2] = {cloth, other};
-    const WeftResult result = other || baking->one_face ? bake_faces(material, cloths, &viewer, folder, found, error)
-                                                        : fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
+    ClothBake bake = {
+        .material = material, .cloths = {cloth, other}, .viewer = viewer, .folder = folder, .found = found};
+    const WeftResult result =
+        other || baking->one_face ? bake_watched(&bake, baking, error) : fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
     weft_cloth_free(other);
     if (result != WEFT_OK && made) folder_remove(folder);
     return result;

@@ -70,6 +70,7 @@ typedef struct MapFit {
     double contrast;      /* of what is shaded */
     double contrast_goal; /* of the threads */
     double gains[3], tints[3];
+    ItemProgress *item_progress; /* of the searches, which it can stop; NULL: none */
 } MapFit;
 
 /* Begins a fit, without texels yet. Release with map_fit_free, in any case. Fails with WEFT_MESSAGE_MEMORY. */

@@ -182,7 +182,13 @@ static void level_find(LevelFit *self, const MapLevel *before, MapLevel *level) 
     double x[LEVEL_AXES] = {(double)before->metallic, (double)before->roughness, (double)before->anisotropy,
                             (double)before->relief},
            sky;
-    Search search = {.axes = LEVEL_AXES, .error = level_error, .user = self, .grid = 24, .descents = 2, .most = 60};
+    Search search = {.axes = LEVEL_AXES,
+                     .error = level_error,
+                     .user = self,
+                     .grid = 24,
+                     .descents = 2,
+                     .most = 60,
+                     .item_progress = self->fit->item_progress};
     ranges_set(self->fit, x, search.axis);
     self->before = (double)before->metallic;
     self->fit->contrast_goal = map_fit_contrast(self->fit, true);
@@ -229,6 +235,7 @@ WeftResult map_levels_find(MapFit *fit, const MapLook *look, MapLevels *out, Wef
     fit->open = covered.normal[3] / covered.cover;
     look_hold(&self, look);
     for (int k = 1; k < out->count; k++) {
+        if (!progress_report(fit->item_progress, 1.0)) return WEFT_INTERRUPTED;
         MapLevel *level = &out->items[k];
         blocks_choose(fit, out, level, places);
         blocks_center(fit, &whole);

@@ -37,7 +37,7 @@ typedef struct MapLevels {
 } MapLevels;
 
 /* Makes the levels of maps with that look, which was found by the fit. Release with map_levels_free, in any case. Fails with
- * WEFT_MESSAGE_MEMORY. */
+ * WEFT_MESSAGE_MEMORY; WEFT_INTERRUPTED where the progress of the fit was stopped. */
 WeftResult map_levels_find(MapFit *fit, const MapLook *look, MapLevels *out, WeftError *error);
 void map_levels_free(MapLevels *levels);
 

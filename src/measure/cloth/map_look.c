@@ -130,7 +130,13 @@ static double error_at(void *user, double *x, SearchCare care) {
 
 static void look_search(MapFit *fit, MapLook *look, WeftBaked *found) {
     double x[AXES], sky;
-    Search search = {.axes = AXES, .error = error_at, .user = fit, .grid = 64, .descents = 3, .most = 120};
+    Search search = {.axes = AXES,
+                     .error = error_at,
+                     .user = fit,
+                     .grid = 64,
+                     .descents = 3,
+                     .most = 120,
+                     .item_progress = fit->item_progress};
     memcpy(search.axis, map_axes, sizeof map_axes);
     map_fit_unread(fit, search.axis);
     copy_start(fit->cloth, x);

@@ -26,5 +26,6 @@ typedef struct MapLook {
     float occlusion; /* strength of the occlusion map */
 } MapLook;
 
-/* Finds the look of maps of a cloth for viewers that shade as the profile of a fit that has begun does, and sets *found. */
+/* Finds the look of maps of a cloth for viewers that shade as the profile of a fit that has begun does, and sets *found.
+ * Neither means anything where the progress of the fit was stopped. */
 void map_look_find(MapFit *fit, MapLook *look, WeftBaked *found);

@@ -1,9 +1,9 @@
 /* scene_bake.c - a woven material of a scene, baked in its place */
 #include <stdbool.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/fail.h"
+#include "scene/material/assign.h"
 #include "weft/match.h"
 #include "weft/weave.h"
 
@@ -42,16 +42,27 @@ static WeftMaterial without_layers(const WeftMaterial *woven) {
     return bare;
 }
 
-/* Warns of each input that the baked material lacks: what is dropped, and textures on anything but the layers. */
-static void warn_dropped(const WeftMaterial *woven, const WeftLog *log) {
+/* Lists what the textures lack of a woven material: its rotation, what is dropped, and textures on anything but the
+ * layers. Returns false where memory is short. */
+static bool list_lost(const WeftScene *scene, int index, const WeftMaterial *woven, WeftLosses *losses) {
     const WeftMaterial bare = without_layers(woven);
-    for (int d = 0; d < DROPPED; d++)
-        if (is_there(woven, dropped[d]))
-            warn(log, WEFT_MESSAGE_DESC, "maps", "%s of %g is not baked", dropped[d],
+    const double degrees = (double)weft_scene_cloth_info(scene, woven->cloth).rotation;
+    const char *name = weft_scene_material_name(scene, index);
+    bool room = true;
+    char why[96];
+    snprintf(why, sizeof why, "the weave lies straight, and is rotated by %g degrees in the original", degrees);
+    if (degrees > 0.0 || degrees < 0.0) room = weft_losses_add(losses, index, name, "rotation", why) != 0;
+    for (int d = 0; d < DROPPED; d++) {
+        if (!is_there(woven, dropped[d])) continue;
+        snprintf(why, sizeof why, "%g of it is not baked",
                  (double)woven->inputs[weft_material_input_find(dropped[d])].value[0]);
+        room = room && weft_losses_add(losses, index, name, dropped[d], why);
+    }
     for (int k = 0; weft_material_input_name(k); k++)
         if (bare.inputs[k].texture && weft_material_reads(&bare, k))
-            warn(log, WEFT_MESSAGE_DESC, "maps", "the texture of %s is not baked", weft_material_input_name(k));
+            room =
+                room && weft_losses_add(losses, index, name, weft_material_input_name(k), "its texture is not baked");
+    return room;
 }
 
 /* Lays the layers of the woven material over the baked one. */
@@ -67,16 +78,6 @@ static WeftResult keep_layers(WeftScene *scene, int index, const WeftMaterial *w
         }
     }
     return weft_scene_put_material(scene, index, &baked, error);
-}
-
-/* Refuses a number that another material has as its name. */
-static WeftResult check_number(const WeftScene *scene, int index, const char *number, WeftError *error) {
-    for (int k = 0; k < weft_scene_info(scene).material_count; k++)
-        if (k != index && strcmp(weft_scene_material_name(scene, k), number) == 0)
-            return fail(error, WEFT_MESSAGE_DESC, "materials",
-                        "material %d is woven, and material %d has the name \"%s\"; give that one another", index, k,
-                        number);
-    return WEFT_OK;
 }
 
 /* Writes the maps of the cloth of a woven material. */
@@ -98,17 +99,16 @@ static WeftResult bake_cloth(const WeftScene *scene, const WeftMaterial *woven, 
 WeftResult weft_scene_bake(WeftScene *scene, int material, const WeftBaking *baking, const char *folder,
                            WeftBaked *found, WeftError *error) {
     WeftMaterial woven;
-    char number[16], file[4096];
+    char file[4096];
     const int length = snprintf(file, sizeof file, "%s/material.json", folder);
-    snprintf(number, sizeof number, "%d", material);
     WeftResult result = weft_scene_material(scene, material, &woven, error);
     if (result != WEFT_OK) return result;
     if (!woven.cloth) return fail(error, WEFT_MESSAGE_DESC, "maps", "the material is not woven");
     if (length < 0 || (size_t)length >= sizeof file)
         return fail(error, WEFT_MESSAGE_FILE_WRITE, "maps", "the name is too long");
-    result = check_number(scene, material, number, error);
-    if (result == WEFT_OK) warn_dropped(&woven, baking->log);
-    if (result == WEFT_OK) result = bake_cloth(scene, &woven, baking, folder, found, error);
-    if (result == WEFT_OK) result = weft_scene_assign_material(scene, number, file, NULL, error);
+    if (baking->losses && !list_lost(scene, material, &woven, baking->losses))
+        return fail(error, WEFT_MESSAGE_MEMORY, "maps", NULL);
+    result = bake_cloth(scene, &woven, baking, folder, found, error);
+    if (result == WEFT_OK) result = material_assign_file(scene, material, file, error);
     return result == WEFT_OK ? keep_layers(scene, material, &woven, error) : result;
 }

@@ -11,6 +11,7 @@
 #include "image/pixel.h"
 #include "measure/match/match_factor.h"
 #include "measure/match/match_place.h"
+#include "measure/match/viewer_reads.h"
 #include "scene/record/scene.h"
 #include "shading/dialect/texel.h"
 #include "weft/deliver.h"
@@ -164,29 +165,45 @@ static WeftResult material_level(Rewrite *rewrite, const WeftScene *scene, int i
     return result;
 }
 
-WeftResult weft_deliver_levels(const char *path, const char *out, int *count, WeftError *error) {
+/* Gives levels to each material that they serve, counts these, and lists the extensions that the file then uses. */
+static WeftResult materials_level(Rewrite *rewrite, const WeftScene *scene, WeftDelivery *delivery, int *count,
+                                  WeftError *error) {
+    WeftResult result = WEFT_OK;
+    json_t *object, *materials = json_object_get(rewrite->root, "materials");
+    size_t k;
+    json_array_foreach(materials, k, object) {
+        bool changed = false;
+        if (result == WEFT_OK && (int)k < weft_scene_info(scene).material_count)
+            result = material_level(rewrite, scene, (int)k, object, &changed, error);
+        *count += changed;
+    }
+    char *extensions = result == WEFT_OK && delivery ? viewer_extensions_text(rewrite->root) : NULL;
+    if (result != WEFT_OK || !delivery) return result;
+    if (!extensions) return fail(error, WEFT_MESSAGE_MEMORY, rewrite->asset->name, NULL);
+    free(delivery->extensions);
+    delivery->extensions = extensions;
+    return WEFT_OK;
+}
+
+WeftResult weft_deliver_levels(const char *path, const char *out, WeftDelivery *delivery, int *count,
+                               WeftError *error) {
     WeftError own;
     WeftScene *scene = NULL;
     Asset asset = {.error = error ? error : &own};
     Rewrite rewrite;
+    int changed = 0;
     WeftResult result = weft_scene_load(path, &scene, NULL, error);
-    *count = 0;
+    if (count) *count = 0;
     if (result != WEFT_OK) return result;
     gltf_open(&asset, path, NULL, 0);
     result = asset.result == WEFT_OK ? rewrite_begin(&rewrite, &asset, error) : asset.result;
     if (result == WEFT_OK) {
-        json_t *object, *materials = json_object_get(rewrite.root, "materials");
-        size_t k;
-        json_array_foreach(materials, k, object) {
-            bool changed = false;
-            if (result == WEFT_OK && (int)k < weft_scene_info(scene).material_count)
-                result = material_level(&rewrite, scene, (int)k, object, &changed, error);
-            *count += changed;
-        }
+        result = materials_level(&rewrite, scene, delivery, &changed, error);
         if (result == WEFT_OK) result = rewrite_save(&rewrite, out, error);
         rewrite_end(&rewrite);
     }
     gltf_close(&asset);
     weft_scene_free(scene);
+    if (count) *count = changed;
     return result;
 }

@@ -38,7 +38,7 @@ typedef struct Delivering {
     WeftScene *source;
     Parcel *parcels; /* `count` */
     WeftDelivered *delivered;
-    ViewerLosses losses;
+    WeftLosses losses;
     int count;
     LoopWatch watch;
     WeftError *errors; /* of the searches */
@@ -122,7 +122,9 @@ static WeftResult file_limit(Delivering *self, const char *path, WeftError *erro
         for (int k = 0; k < self->count && result == WEFT_OK; k++) {
             json_t *material = json_array_get(materials, (size_t)k);
             if (!material) continue;
-            result = viewer_limit(&rewrite, self->target, material, &self->losses, &self->parcels[k].limited, error);
+            result = viewer_limit(&rewrite, self->target, material,
+                                  &(ViewerLimit){&self->losses, k, self->delivered[k].name}, &self->parcels[k].limited,
+                                  error);
             factors_open(&self->parcels[k], material);
         }
         viewer_uses(&rewrite, self->target);
@@ -153,15 +155,18 @@ static double even_sky(const WeftReflection *reflection) {
 
 /* Makes glass opaque for the search and for the judgement where the target's profile shows none, since reflections would
  * then be those of two things. */
-static void glass_set_aside(Delivering *self) {
+static WeftResult glass_set_aside(Delivering *self, WeftError *error) {
     for (int k = 0; k < self->count; k++) {
         Parcel *parcel = &self->parcels[k];
         parcel->glass = material_has_glass(&parcel->source);
         if (!parcel->glass || material_has_glass(&parcel->written)) continue;
         parcel->source.inputs[INPUT_transmission].value[0] = 0.0f;
         parcel->written.inputs[INPUT_transmission].value[0] = 0.0f;
-        self->losses.opaque_glass++;
+        if (!weft_losses_add(&self->losses, k, self->delivered[k].name, "glass",
+                             "it is matched and judged as if it were opaque, in its own base colour"))
+            return fail(error, WEFT_MESSAGE_MEMORY, self->path, NULL);
     }
+    return WEFT_OK;
 }
 
 /* Locks every input but the factors that can be written. Of glass the base colour stays: its reflection does not have it. */
@@ -278,18 +283,6 @@ static void parcel_write(const Parcel *parcel, json_t *material) {
     }
 }
 
-/* Returns the extensions that a file uses, a line each. NULL where memory is short. */
-static char *extensions_text(const json_t *root) {
-    const json_t *used = json_object_get(root, "extensionsUsed"), *name;
-    size_t k, size = 1, length = 0;
-    json_array_foreach(used, k, name) size += json_string_length(name) + 1;
-    char *text = calloc(size, 1);
-    json_array_foreach(used, k, name) {
-        if (text) length += (size_t)snprintf(text + length, size - length, "%s\n", json_string_value(name));
-    }
-    return text;
-}
-
 /* Writes the factors that were found, and lists what the file uses. */
 static WeftResult file_finish(Delivering *self, WeftDelivery *delivery, WeftError *error) {
     WeftError own;
@@ -304,10 +297,9 @@ static WeftResult file_finish(Delivering *self, WeftDelivery *delivery, WeftErro
             if (material && is_due(self, &self->parcels[k])) parcel_write(&self->parcels[k], material);
             if (material) viewer_strength_fold(self->target, material);
         }
-        delivery->extensions = extensions_text(rewrite.root);
-        delivery->lost = viewer_losses_text(&self->losses, self->count);
-        result = delivery->extensions && delivery->lost ? rewrite_save(&rewrite, self->out, error)
-                                                        : fail(error, WEFT_MESSAGE_MEMORY, self->out, NULL);
+        delivery->extensions = viewer_extensions_text(rewrite.root);
+        result = delivery->extensions ? rewrite_save(&rewrite, self->out, error)
+                                      : fail(error, WEFT_MESSAGE_MEMORY, self->out, NULL);
         rewrite_end(&rewrite);
     }
     gltf_close(&asset);
@@ -355,19 +347,22 @@ WeftResult weft_deliver(const char *path, const char *out, int from, int target,
     WeftResult result = source_read(&self, log, error);
     if (result == WEFT_OK) result = file_make(&self, error);
     if (result == WEFT_OK) result = written_read(&self, error);
-    if (result == WEFT_OK) glass_set_aside(&self);
+    if (result == WEFT_OK) result = glass_set_aside(&self, error);
     if (result == WEFT_OK) result = match_all(&self, error);
     if (result == WEFT_OK) result = file_finish(&self, &own, error);
     for (int k = 0; k < self.count && self.parcels; k++) weft_reflection_free(self.parcels[k].original);
     if (result == WEFT_OK && delivery) {
         own.materials = self.delivered;
         own.material_count = self.count;
+        own.losses = self.losses;
         *delivery = own;
         self.delivered = NULL;
+        self.losses = (WeftLosses){.items = NULL};
     } else {
         weft_delivery_free(&own);
     }
     weft_scene_free(self.source);
+    weft_losses_free(&self.losses);
     free(self.parcels);
     free(self.delivered);
     free(self.errors);
@@ -379,6 +374,6 @@ void weft_delivery_free(WeftDelivery *delivery) {
     if (!delivery) return;
     free(delivery->materials);
     free(delivery->extensions);
-    free(delivery->lost);
+    weft_losses_free(&delivery->losses);
     *delivery = (WeftDelivery){.materials = NULL};
 }

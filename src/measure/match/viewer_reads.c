@@ -64,7 +64,6 @@ static const struct {
     {"KHR_materials_pbrSpecularGlossiness", KHRONOS | BABYLON | FILAMENT | BLENDER, NO_MATERIAL, ""},
 };
 enum { EXTENSIONS = sizeof extensions / sizeof *extensions };
-_Static_assert((int)EXTENSIONS <= (int)VIEWER_EXTENSIONS, "losses have a place for each extension");
 
 int weft_target_info(int index, WeftTarget *out) {
     if (index < 0 || index >= TARGETS) return 0;
@@ -141,7 +140,7 @@ static void member_drop(json_t *owner, const char *name, const char *member) {
     if (json_object_del(object, member) == 0 && json_object_size(object) == 0) json_object_del(owner, name);
 }
 
-WeftResult viewer_limit(Rewrite *rewrite, int target, json_t *material, ViewerLosses *losses, bool *changed,
+WeftResult viewer_limit(Rewrite *rewrite, int target, json_t *material, const ViewerLimit *limit, bool *changed,
                         WeftError *error) {
     member_drop(material, "extras", "weft");
     for (int k = 0; k < EXTENSIONS; k++) {
@@ -159,8 +158,9 @@ WeftResult viewer_limit(Rewrite *rewrite, int target, json_t *material, ViewerLo
         if (kept) result = ior_to_color(rewrite, parts, object, error);
         if (result != WEFT_OK) return result;
         if (!kept && !is_idle(object, extensions[k].name)) {
-            losses->materials[k]++;
             *changed |= extensions[k].effect == OTHER_LIGHT;
+            if (!weft_losses_add(limit->losses, limit->material, limit->name, extensions[k].name, extensions[k].lost))
+                return fail(error, WEFT_MESSAGE_MEMORY, rewrite->asset->name, NULL);
         }
         member_drop(material, "extensions", extensions[k].name);
     }
@@ -172,17 +172,13 @@ void viewer_uses(Rewrite *rewrite, int target) {
         if (!reads(target, k)) rewrite_uses_no_more(rewrite, extensions[k].name);
 }
 
-char *viewer_losses_text(const ViewerLosses *losses, int materials) {
-    enum { LINE = 200 };
-    char *text = calloc(EXTENSIONS + 2, LINE);
-    size_t used = 0;
-    for (int k = 0; text && k < EXTENSIONS; k++)
-        if (losses->materials[k])
-            used += (size_t)snprintf(text + used, LINE, "%s: %s (%d of %d materials)\n", extensions[k].name,
-                                     extensions[k].lost, losses->materials[k], materials);
-    if (text && losses->opaque_glass)
-        snprintf(text + used, LINE,
-                 "glass: matched and judged as if it were opaque, in its own base colour (%d of %d materials)\n",
-                 losses->opaque_glass, materials);
+char *viewer_extensions_text(const json_t *root) {
+    const json_t *used = json_object_get(root, "extensionsUsed"), *name;
+    size_t k, size = 1, length = 0;
+    json_array_foreach(used, k, name) size += json_string_length(name) + 1;
+    char *text = calloc(size, 1);
+    json_array_foreach(used, k, name) {
+        if (text) length += (size_t)snprintf(text + length, size - length, "%s\n", json_string_value(name));
+    }
     return text;
 }

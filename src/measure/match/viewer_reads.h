@@ -7,18 +7,17 @@
 #include "gltf/save/rewrite.h"
 #include "weft/deliver.h"
 
-enum { VIEWER_EXTENSIONS = 24 };
-
-/* The extensions that were taken out of the materials of a file. */
-typedef struct ViewerLosses {
-    int materials[VIEWER_EXTENSIONS]; /* how many showed each extension that was taken out */
-    int opaque_glass;                 /* materials of glass that were matched and judged as if they were opaque */
-} ViewerLosses;
+/* The place for what a material loses: the list, and the material's index and name. */
+typedef struct ViewerLimit {
+    WeftLosses *losses;
+    int material;
+    const char *name;
+} ViewerLimit;
 
 /* Takes out of a material of the rewritten file the extensions that target `target` does not read, and extras.weft.
  * *changed becomes true if what is left reflects light in another way. Fails with WEFT_MESSAGE_GLTF_EXTENSION where
  * the target lacks what the whole material stands on, or with _MEMORY. */
-WeftResult viewer_limit(Rewrite *rewrite, int target, json_t *material, ViewerLosses *losses, bool *changed,
+WeftResult viewer_limit(Rewrite *rewrite, int target, json_t *material, const ViewerLimit *limit, bool *changed,
                         WeftError *error);
 
 /* Moves the factor of KHR_materials_specular into its colour where the target would dim metals by the factor. Both
@@ -28,5 +27,5 @@ void viewer_strength_fold(int target, json_t *material);
 /* Removes from extensionsUsed and extensionsRequired the extensions that viewer_limit takes out. */
 void viewer_uses(Rewrite *rewrite, int target);
 
-/* Returns a sentence on each loss, a line each. Release with free; NULL where memory is short. */
-char *viewer_losses_text(const ViewerLosses *losses, int materials);
+/* Returns the extensions that a file uses, a line each. Release with free; NULL where memory is short. */
+char *viewer_extensions_text(const json_t *root);

@@ -156,15 +156,27 @@ static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *f
     return result;
 }
 
+/* Puts a file that was read on one material, and releases it. */
+static WeftResult put_on_index(WeftScene *scene, int material, MaterialFile *file, WeftResult read, WeftError *error) {
+    WeftResult result = read;
+    bool *selected = arena_array(&scene->arena, (size_t)scene->material_count, sizeof *selected);
+    if (result == WEFT_OK && !selected) result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    if (selected) selected[material] = true;
+    if (result == WEFT_OK) result = put_on_selected(scene, selected, file, error);
+    material_file_free(file);
+    return result;
+}
+
 WeftResult material_assign_text(WeftScene *scene, int material, const char *text, WeftError *error) {
     MaterialFile file;
-    bool *selected = arena_array(&scene->arena, (size_t)scene->material_count, sizeof *selected);
-    if (!selected) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    selected[material] = true;
-    WeftResult result = material_file_read(text, strlen(text), "--set", NULL, &file, NULL, error);
-    if (result == WEFT_OK) result = put_on_selected(scene, selected, &file, error);
-    material_file_free(&file);
-    return result;
+    const WeftResult read = material_file_read(text, strlen(text), "--set", NULL, &file, NULL, error);
+    return put_on_index(scene, material, &file, read, error);
+}
+
+WeftResult material_assign_file(WeftScene *scene, int material, const char *path, WeftError *error) {
+    MaterialFile file;
+    const WeftResult read = material_file_load(path, &file, NULL, error);
+    return put_on_index(scene, material, &file, read, error);
 }
 
 static WeftResult assign_from(WeftScene *scene, const char *material, MaterialFile *file, WeftResult read,

@@ -132,14 +132,15 @@ void u3m_look_lost(const Material *material, const char *name, const WeftLog *lo
     models_lost(material, name, log);
     for (int k = 0; k < INPUT_COUNT; k++)
         if (is_lost(material, &fresh, k))
-            warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name, "%s, for which U3M has no word", input_infos[k].name);
+            warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name, "%s: U3M has no word for it", input_infos[k].name);
     if (material->alpha_mode == WEFT_ALPHA_MASK)
         warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name, "the cut-out at an opacity of %g: U3M's alpha blends",
              (double)material->alpha_cutoff);
-    if (material->unlit) warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name, "that it is unlit");
+    if (material->unlit) warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name, "its unlit look: U3M has no word for it");
     if (material->cloth)
         warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name,
-             "its threads, of which a U3M has the construction; weft weave --bake makes pictures of them");
-    if (material->measured) warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name, "its measurement; its numbers are written");
-    if (material->hair[WEFT_HAIR_LENGTH] > 0.0f) warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name, "its hair");
+             "its threads: a U3M has their construction; weft weave --bake makes pictures of them");
+    if (material->measured) warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name, "its measurement: its numbers are written");
+    if (material->hair[WEFT_HAIR_LENGTH] > 0.0f)
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name, "its hair: U3M has no word for it");
 }

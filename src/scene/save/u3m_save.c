@@ -328,7 +328,7 @@ static void file_keep(U3mWriter *w, U3mArchive *archive, const char *folder, con
     if (result == WEFT_RESOURCES)
         w->result = result;
     else if (result != WEFT_OK) /* it was missing before */
-        warn(w->log, WEFT_MESSAGE_GLTF_WARN_IGNORED, w->path, "%s, which cannot be read, as when it was loaded", file);
+        warn(w->log, WEFT_MESSAGE_GLTF_WARN_IGNORED, w->path, "%s: it cannot be read, as when it was loaded", file);
     else
         w->result = u3m_package_add(w->pictures.package, file, bytes.data, bytes.size, false, w->error);
     free(bytes.data);
@@ -361,8 +361,7 @@ static void archive_keep(U3mWriter *w, U3mArchive *archive, const char *material
         if (strncmp(file, top, folder) == 0)
             file_keep(w, archive, top, file + folder);
         else
-            warn(w->log, WEFT_MESSAGE_GLTF_WARN_IGNORED, w->path, "%.200s, which is outside the folder of the .u3m",
-                 file);
+            warn(w->log, WEFT_MESSAGE_GLTF_WARN_IGNORED, w->path, "%.200s: it is outside the folder of the .u3m", file);
     }
 }
 

@@ -1,12 +1,13 @@
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "view/render/baking.h"
 
-#include <ftw.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/folder.h"
+#include "view/files/paths.h"
 #include "view/render/still.h"
 #include "weft/match.h"
 #include "weft/save.h"
@@ -19,13 +20,15 @@ struct Baking {
     atomic_bool stopped, done;
     int materials; /* baked */
     double off;    /* the largest WeftBaked.fitted */
+    WeftLosses losses;
     WeftResult result;
     WeftError error;
 };
 
-static int remove_one(const char *path, const struct stat *s, int kind, struct FTW *at) {
-    (void)s, (void)kind, (void)at;
-    return remove(path);
+/* Stops a search, as a WeftProgress. */
+static int heed(void *user, double fraction) {
+    (void)fraction;
+    return atomic_load(&((Baking *)user)->stopped);
 }
 
 /* Bakes one material beside the copy of the scene. */
@@ -33,8 +36,9 @@ static WeftResult bake_one(Baking *self, WeftScene *scene, int index) {
     char folder[STATE_PATH + 16];
     WeftBaked found = {0};
     snprintf(folder, sizeof folder, "%s.bake", self->scene);
-    WeftResult result = weft_scene_bake(scene, index, &(WeftBaking){0}, folder, &found, &self->error);
-    (void)nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    const WeftBaking baking = {.losses = &self->losses, .progress = heed, .user = self};
+    WeftResult result = weft_scene_bake(scene, index, &baking, folder, &found, &self->error);
+    (void)folder_remove_all(folder);
     self->materials += result == WEFT_OK;
     if (found.fitted > self->off) self->off = found.fitted;
     return result;
@@ -83,17 +87,28 @@ Baking *baking_start(const char *scene, const char *path, Window *window) {
 
 bool baking_done(Baking *self) { return atomic_load(&self->done); }
 
+/* Writes what was made, and the first thing that it lacks. */
+static void say_made(const Baking *self, char line[512]) {
+    const WeftLoss *first = self->losses.items;
+    int used = snprintf(line, 512, "wrote %.200s, %d woven material%s baked, %.1f %% off the threads from afar",
+                        path_name(self->path), self->materials, self->materials == 1 ? "" : "s", 100.0 * self->off);
+    if (!self->losses.count || used < 0 || used >= 512) return;
+    used += snprintf(line + used, 512 - (size_t)used, "; %s: %.100s", first->what, first->why);
+    if (self->losses.count > 1 && used < 512)
+        snprintf(line + used, 512 - (size_t)used, "; and %d more losses", self->losses.count - 1);
+}
+
 bool baking_end(Baking *self, char line[512]) {
     atomic_store(&self->stopped, true);
     pthread_join(self->thread, NULL);
     const bool made = self->result == WEFT_OK;
     if (made)
-        snprintf(line, 512, "wrote %.380s, %d woven material%s baked, %.1f %% off the threads from afar", self->path,
-                 self->materials, self->materials == 1 ? "" : "s", 100.0 * self->off);
+        say_made(self, line);
     else if (self->result == WEFT_INTERRUPTED)
         snprintf(line, 512, "cancelled: %.400s was not written", self->path);
     else
         snprintf(line, 512, "%s", self->error.text[0] ? self->error.text : "out of memory");
+    weft_losses_free(&self->losses);
     free(self);
     return made;
 }

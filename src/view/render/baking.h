@@ -12,6 +12,6 @@ typedef struct Baking Baking;
 Baking *baking_start(const char *scene, const char *path, Window *window);
 bool baking_done(Baking *baking);
 
-/* Waits for the end, at most as long as the material takes that is under way, and releases it. Writes a line for people,
+/* Stops the search and waits for the end, and releases it. Writes a line for people,
  * and returns false if there is no file. */
 bool baking_end(Baking *baking, char line[512]);
