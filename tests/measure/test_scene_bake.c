@@ -1,5 +1,6 @@
 /* A woven material of a scene that is baked in its place: it gets textures, what lies over its threads stays, and its other
  * materials too; what cannot be baked is refused */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -135,6 +136,40 @@ static void a_name_that_is_a_number_is_another_material(void **state) {
     weft_scene_free(scene);
 }
 
+/* Returns the mean of the base colour of a white plain weave baked to so many texels. */
+static double mean_of_maps(int pixels, const char *folder) {
+    char path[64];
+    WeftImage map;
+    WeftError error;
+    WeftScene *scene = scene_of("preset:woven-poplin");
+    const WeftBaking baking = {.pixels = pixels, .profile = "three", .one_face = 1};
+    WeftDraft *draft;
+    WeftYarn cotton;
+    assert_int_equal(weft_draft_parse("plain", &draft, &error), WEFT_OK);
+    assert_int_equal(weft_yarn_find("cotton", &cotton, &error), WEFT_OK);
+    WeftResult result = weft_scene_set_weave(scene, 0, draft, (WeftYarn[2]){cotton, cotton}, &error);
+    weft_draft_free(draft);
+    if (result == WEFT_OK) result = weft_scene_bake(scene, 0, &baking, folder, NULL, &error);
+    snprintf(path, sizeof path, "%s/base_color.png", folder);
+    if (result == WEFT_OK) result = weft_image_read(path, &map, NULL, &error);
+    if (result != WEFT_OK) fail_msg("%s", error.text);
+    const int count = map.width * map.height;
+    double sum = 0.0;
+    for (int k = 0; k < count; k++)
+        sum += pow(((const unsigned char *)map.pixels)[(ptrdiff_t)map.channels * k] / 255.0, 2.2) / count;
+    weft_image_free(&map);
+    weft_scene_free(scene);
+    return sum;
+}
+
+/* Where a texel is a quarter or a fifth of a thread, many would be more than white. */
+static void white_cloth_is_as_bright_at_any_size(void **state) {
+    (void)state;
+    const double large = mean_of_maps(128, "large"), small_one = mean_of_maps(64, "quarter");
+    print_message("mean base colour %.3f of 128 texels, %.3f of 64\n", large, small_one);
+    assert_true(fabs(small_one / large - 1.0) < 0.05);
+}
+
 static int stop_soon(void *user, double fraction) {
     int *calls = user;
     assert_true(fraction >= 0.0 && fraction <= 1.0);
@@ -175,6 +210,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(textures_take_the_place_of_threads_below_the_fuzz),
                                        cmocka_unit_test(inputs_over_threads_are_kept_or_said_to_be_lost),
                                        cmocka_unit_test(a_name_that_is_a_number_is_another_material),
+                                       cmocka_unit_test(white_cloth_is_as_bright_at_any_size),
                                        cmocka_unit_test(a_stopped_search_leaves_no_maps),
                                        cmocka_unit_test(an_unwoven_material_is_refused)};
     return cmocka_run_group_tests_name("measure/scene_bake", tests, scratch_group_begin, scratch_group_end);

@@ -103,18 +103,28 @@ static double copied_error(MapFit *fit, const double *x) {
     return map_fit_error_now(fit, &sky);
 }
 
-/* Returns by how much the texels of the blocks are brighter in a channel than those of the whole maps, by chance. */
-static double chance(const MapFit *fit, int c, float shade) {
-    double blocks = 0.0, whole = 0.0;
+/* Returns the factor on the colours of texels, none of which exceeds 1, by which the mean of the maps is that of the blocks,
+ * which the search saw, times a gain. */
+static float color_factor(const MapFit *fit, int c, float shade, double gain) {
+    enum { STEPS = 8 };
+    static const double most = 16.0;
+    float colors[WHOLE], parts[WHOLE];
+    double blocks = 0.0, factor = gain;
     for (int k = 0; k < BLOCKS * FINE; k++) {
         const LookTexel *t = &fit->blocks[k / FINE].texels[k % FINE];
         blocks += (double)(t->cover * t->color[c] * powf(fmaxf(t->light, 0.0f), shade)) / (BLOCKS * FINE);
     }
     for (int k = 0; k < WHOLE; k++) {
         const MapTexel t = whole_texel(fit->grid, k);
-        whole += (double)((fit->holed ? t.cover : 1.0f) * map_texel_color(&t, c, shade, fit->holed)) / WHOLE;
+        colors[k] = map_texel_color(&t, c, shade, fit->holed);
+        parts[k] = (fit->holed ? t.cover : 1.0f) / WHOLE;
     }
-    return blocks / fmax(whole, 1e-9);
+    for (int step = 0; step < STEPS; step++) { /* the first one is exact where no texel is cut */
+        double mean = 0.0;
+        for (int k = 0; k < WHOLE; k++) mean += (double)parts[k] * fmin(factor * (double)colors[k], 1.0);
+        factor = fmin(factor * gain * blocks / fmax(mean, 1e-9), most * gain);
+    }
+    return (float)factor;
 }
 
 static double error_at(void *user, double *x, SearchCare care) {
@@ -157,7 +167,7 @@ static void look_search(MapFit *fit, MapLook *look, WeftBaked *found) {
                       .specular = (float)x[AXIS_SPECULAR],
                       .sheen_roughness = (float)x[AXIS_SHEEN_ROUGHNESS]};
     for (int c = 0; c < 3; c++) {
-        look->color[c] = (float)(fit->gains[c] * chance(fit, c, look->shade));
+        look->color[c] = color_factor(fit, c, look->shade, fit->gains[c]);
         look->sheen[c] = (float)(fit->tints[c] * x[AXIS_SHEEN]);
     }
     look->occlusion = map_fit_occlusion(fit, sky);
