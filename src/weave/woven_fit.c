@@ -229,8 +229,8 @@ static void light_lobe(const WovenPrepared *p, Lit *far) {
     lit_add(far, &pairs, 1.0, 1.0);
 }
 
-/* Scales the gains so that light that met one fibre is as bright as without them: the environment is convolved with the
- * lobe without gains (raster/material/materials.c). */
+/* Scales the gains so that light that met one fibre is as bright as without them: light that bounces has the albedo of
+ * the lobe without gains (raster/light/ray_albedos.c). */
 static void level_gains(SystemFit *fit) {
     Lit lobe = *fit->near;
     WovenPrepared p;

@@ -5,8 +5,12 @@
  * A pixel much smaller than a thread has one point, a larger one up to five, and from about one thread on the lobes of
  * both systems from afar take over. Points and systems are bases (weave_base.h), each lit by itself. The rest is
  * computed a single time: the layers above the bases, except under polygon lights, and the residual of the environment
- * on the mean base, which is exact since it is linear in the colours of a base. */
+ * on the mean base. That is linear in the colours of a base, and each base has them times what its system reflects of an
+ * even sky, so that an even sky is exact. */
 #include "raster/glsl/weave_far.glsl"
+#ifdef AMBIENT
+#include "raster/glsl/weave_sky.glsl"
+#endif
 #include "shading/weave/weave_base.h"
 
 #ifdef COARSE
@@ -51,12 +55,12 @@ Stack woven_stack(Stack m, WeaveBase b) {
 struct WovenSum {
     Rgb direct;           /* radiance to the eye by direct lights */
     Rgb around;           /* and by the environment's lights, before layers above dim it */
-    Rgb single, multiple; /* colours */
+    Rgb single, multiple; /* colours times E of an even sky */
     float covered;        /* the part of the pixel that threads cover */
 };
 
-/* Adds base b. n: the stack on it; w: the view of the stack without a base. */
-void woven_add(inout WovenSum sum, Stack n, StackView w, WeaveBase b, float weight, PolygonReach reach,
+/* Adds base b. n: the stack on it; w: the view of the stack without a base; sky: E of its two colours. */
+void woven_add(inout WovenSum sum, Stack n, StackView w, WeaveBase b, vec2 sky, float weight, PolygonReach reach,
                Facing at, Frame frame) {
     StackView v = w;
     Slots base = slots_of(SHOWS_DIFFUSE, false, false, false, false);
@@ -68,8 +72,8 @@ void woven_add(inout WovenSum sum, Stack n, StackView w, WeaveBase b, float weig
     Rgb around = ambient_reflect_lights(n, v, base, frame, sky_open(frame).x);
     sum.around = rgb_add(sum.around, rgb_scale(around, weight));
 #endif
-    sum.single = rgb_add(sum.single, rgb_scale(b.single, weight));
-    sum.multiple = rgb_add(sum.multiple, rgb_scale(b.multiple, weight));
+    sum.single = rgb_add(sum.single, rgb_scale(rgb_scale(b.single, sky.x), weight));
+    sum.multiple = rgb_add(sum.multiple, rgb_scale(rgb_scale(b.multiple, sky.y), weight));
 }
 
 /* Returns the rest: the layers above bases, and the residual of the environment on the mean base. */
@@ -105,11 +109,18 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion, float 
     vec3 random = pixel_random();
     StackView w;
     stack_view(m, o, w);
+    vec4 sky = vec4(1.0);
 #ifdef AMBIENT
     occlude_by_texture(occlusion);
+    sky = weave_sky(o);
 #endif
     PolygonReach reach = polygon_reach(HAS_TRANSMITTED(m), at);
-    WovenSum sum = WovenSum(rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), far);
+    float whole = 1.0; /* the part of the cloth without gaps; a mask, which is there or not, has none from afar */
+#ifndef MASKED
+    if (MATERIAL_HOLED) whole = c.warp_far.share + c.weft_far.share;
+#endif
+    WovenSum sum = WovenSum(rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), 0.0);
+    sum.covered = far * whole;
     for (int k = 0; k < points; k++) {
         float weight = (1.0 - far) / float(points);
 #ifdef COARSE
@@ -123,18 +134,21 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion, float 
         WeaveBase b = weave_near(c, p, wear);
         Stack n = woven_stack(m, b);
         n.diffuse_prepared.yarn.axis = p.fibre; /* exactly, instead of through the azimuth */
-        woven_add(sum, n, w, b, weight, reach, at, frame);
+        woven_add(sum, n, w, b, p.weft ? sky.zw : sky.xy, weight, reach, at, frame);
     }
     for (int k = 0; k < systems; k++) {
+        float weight = 0.5 * far * whole; /* colours of a holed cloth are those of its threads */
         WeaveBase b = woven_far(c, k > 0, place, across, up, f, wear);
 #ifdef COARSE
-        polygons_weight = 0.5 * far;
+        polygons_weight = weight;
         polygons_first = k * (POLYGON_POINTS / 2);
         polygons_number = POLYGON_POINTS / 2;
 #endif
         Stack n = woven_stack(m, b);
         n.diffuse_prepared.woven = pixel_afar(k > 0);
-        woven_add(sum, n, w, b, 0.5 * far, reach, at, frame);
+        vec2 fitted = k > 0 ? vec2(c.weft_far.single, c.weft_far.multiple) : vec2(c.warp_far.single, c.warp_far.multiple);
+        vec2 own = (k > 0 ? sky.zw : sky.xy) / max(fitted, vec2(1e-6)); /* the colours have the factors of the lobe */
+        woven_add(sum, n, w, b, own, weight, reach, at, frame);
     }
     if (MATERIAL_HOLED) {
         float scale = 1.0 / max(sum.covered, 1e-3);

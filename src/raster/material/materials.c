@@ -8,13 +8,12 @@
 #include "base/equal.h"
 #include "base/fail.h"
 #include "raster/gl/gl_check.h"
+#include "raster/material/cloth_sky.h"
 #include "raster/material/families.h"
 #include "raster/material/programs.h"
 #include "scene/light/polygons.h"
 #include "scene/material/hair.h"
 #include "scene/record/material_at.h"
-#include "shading/weave/weave_base.h"
-#include "weave/weft_cloth.h"
 
 /* The block "Material" of the shaders. */
 typedef struct Uniforms {
@@ -23,6 +22,8 @@ typedef struct Uniforms {
     MATERIAL_BLOCK(MEMBER)
 #undef MEMBER
 } Uniforms;
+
+_Static_assert((int)CLOTH_SKY <= (int)AMBIENT_BAKED, "in the place of a table");
 
 /* OpenGL ES 3.0 guarantees no more. */
 _Static_assert(sizeof(Uniforms) <= 16384, "the block of a material is too large");
@@ -96,42 +97,46 @@ static Surface middle_surface(const Material *material) {
     return material_plain(&middle);
 }
 
-/* Returns the lobe of a cloth from afar, halfway between warp and weft, since both reflect the smooth part of the
- * environment alike. */
-static Lobe cloth_lobe(const WeftCloth *cloth) {
-    const Weave *m = &cloth->weave;
-    Lobe lobe =
-        weave_far(m, m->weft_far.share > m->warp_far.share, rgb_grey(0.0f), rgb_grey(0.0f), 1.0f, 1.0f, 0.0f).lobe;
-    lobe.params[WOVEN_SHARE] = 1.0f;
-    lobe.params[WOVEN_AZIMUTH] = 0.25f * PI;
-    return lobe;
+/* Bakes the table of a slot, unless its lobe or its cloth is as before. cloth: NULL for a lobe. Returns false if memory
+ * is short. */
+static bool bake_slot(GlMaterial *self, int slot, const Lobe *lobe, const WeftCloth *cloth, int threads,
+                      AmbientFit *fit, Uniforms *uniforms) {
+    MaterialFit *baked = &self->fits[slot];
+    const int number = cloth ? self->cloth : 0;
+    bool made = true;
+    if (baked->made && baked->cloth == number && (cloth || ambient_alike(&baked->lobe, lobe))) return true;
+    if (cloth)
+        made = cloth_sky_fit(cloth, threads, fit, uniforms->fits + SHADER_CLOTH_SKY);
+    else
+        ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);
+    if (!made) return false;
+    ambient_bake(fit, uniforms->fits + slot * AMBIENT_BAKED);
+    *baked = (MaterialFit){true, fit->by_azimuth, fit->denser > AMBIENT_DENSER, fit->finest, *lobe, number};
+    return true;
 }
 
-/* Bakes the tables of the slots whose first parameter is constant, unless the lobe is as before. Returns false if
- * memory is short. */
+/* Bakes the tables of the slots whose first parameter is constant. The sky of a cloth lies where a specular lobe has its
+ * table, so that each makes the other be baked again. Returns false if memory is short. */
 static bool add_fits(GlMaterial *self, const Material *material, const WeftCloth *cloth, int threads,
                      Uniforms *uniforms) {
     AmbientFit *fit = alloc_array(1, sizeof *fit);
     Surface surface = middle_surface(material);
+    bool made = true;
     Stack m;
     if (!fit) return false;
     stack_make(&m, &surface, &self->key.choices, (TableRef){.kind = TABLE_NONE});
-    for (int k = 0; k < SLOT_COUNT; k++) {
-        const bool woven = cloth && k == PLACE_DIFFUSE;
-        const Lobe own = woven ? cloth_lobe(cloth) : stack_slot(&m, k)->lobe, *lobe = &own;
-        if (!(woven || stack_slot(&m, k)->normal > 0.0f) || !shader_bakes(&self->key, k)) continue;
-        MaterialFit *baked = &self->fits[k];
-        if (!baked->made || !ambient_alike(&baked->lobe, lobe)) {
-            ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);
-            ambient_bake(fit, uniforms->fits + k * AMBIENT_BAKED);
-            *baked = (MaterialFit){true, fit->by_azimuth, fit->denser > AMBIENT_DENSER, fit->finest, *lobe};
-        }
-        self->finest[k] = baked->finest;
-        self->key.by_azimuth |= baked->by_azimuth << k;
-        self->key.dense |= baked->dense << k;
+    if (cloth) self->fits[PLACE_SPECULAR].made = false;
+    if (!cloth && self->fits[PLACE_DIFFUSE].cloth) self->fits[PLACE_DIFFUSE].made = false;
+    for (int k = 0; k < SLOT_COUNT && made; k++) {
+        const WeftCloth *own = k == PLACE_DIFFUSE ? cloth : NULL;
+        if (!(own || stack_slot(&m, k)->normal > 0.0f) || !shader_bakes(&self->key, k)) continue;
+        made = bake_slot(self, k, &stack_slot(&m, k)->lobe, own, threads, fit, uniforms);
+        self->finest[k] = self->fits[k].finest;
+        self->key.by_azimuth |= self->fits[k].by_azimuth << k;
+        self->key.dense |= self->fits[k].dense << k;
     }
     free(fit);
-    return true;
+    return made;
 }
 
 /* Fitting tables for a lobe's own numbers takes tens of ms. With more materials than these, all share tables over the

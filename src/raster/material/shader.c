@@ -52,8 +52,8 @@ static void vary(const ShaderKey *key, Surface *s, float x) {
 bool shader_bakes(const ShaderKey *key, int slot) {
     Lobe lobes[2];
     bool zero[INPUT_COUNT];
-    if (key->ranged || (key->woven && slot == PLACE_SPECULAR)) return false;
     if (key->woven && slot == PLACE_DIFFUSE) return true;
+    if (key->ranged || (key->woven && slot == PLACE_SPECULAR)) return false;
     find_zeros(key, zero);
     for (int k = 0; k < 2; k++) {
         Stack m;
@@ -451,6 +451,7 @@ static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots
     text_line(text, "\nAmbientTables material_ambient() {\n    AmbientTables t;");
     for (int k = 0; k < SLOT_COUNT; k++) put_ambient_table(text, slot_name(k), &entries[k]);
     text_line(text, "    return t;\n}");
+    if (key->woven) text_line(text, "\nconst int CLOTH_SKY = %d;", SHADER_CLOTH_SKY);
     text_define(text, "AMBIENT", "1");
 }
 

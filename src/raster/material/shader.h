@@ -57,7 +57,11 @@ typedef struct ShaderKey {
     int table_kind, table_rows, table_columns, table_tilts; /* of the sheen's E */
 } ShaderKey;
 
-enum { FIT_VECTORS = AMBIENT_BAKED * SLOT_COUNT };
+enum {
+    FIT_VECTORS = AMBIENT_BAKED * SLOT_COUNT,
+    SHADER_CLOTH_SKY =
+        AMBIENT_BAKED * PLACE_SPECULAR /* a woven material has the numbers of cloth_sky.h in place of a table */
+};
 typedef float MaterialVector[4];
 
 /* Lists the uniform block "Material" behind a vector for each input (w: 1 where it has a map; y: of a normal map,

@@ -53,6 +53,7 @@ typedef struct Fitter {
     Filter filters[LOOKUPS];
     double a[LOOKUPS][LOOKUPS]; /* A */
     AmbientFit *fit;
+    const AmbientMixture *mixture; /* NULL: the lobe of the fit alone */
 } Fitter;
 
 /* Fills p with P_0 to P_(BANDS - 1) of mu. */
@@ -122,28 +123,31 @@ static float radical_inverse(uint32_t k) {
     return x;
 }
 
-/* Samples the light that a lobe reflects from wo. azimuth: of wo. If the lobe depends on it, half of the samples have
- * the mirrored azimuth. Tables are indexed by its cosine, which both share, so a node is the mean of both. Yarns across
- * wo, for example, reflect differently to their two sides. */
-static void reflect(Reflected *light, const Lobe *lobe, float cos_o, float azimuth, bool by_azimuth) {
+/* Samples the light that a mixture reflects from wo, its lobes one after the other by multiples of the golden ratio,
+ * which are as evenly spread as the samples' numbers. azimuth: of wo. If the lobes depend on it, half of the samples
+ * have the mirrored azimuth. Tables are indexed by its cosine, which both share, so a node is the mean of both. Yarns
+ * across wo, for example, reflect differently to their two sides. */
+static void reflect(Reflected *light, const AmbientMixture *from, float cos_o, float azimuth, bool by_azimuth) {
     const float sin_o = sqrt(max(1.0f - cos_o * cos_o, 0.0f)), tx = cos(azimuth), side = sin(azimuth);
     light->count = 0;
     light->e[0] = light->e[1] = light->log2_density = 0.0;
     for (int k = 0; k < SAMPLES; k++) {
         const float ty = by_azimuth && k & 1 ? -side : side;
         const int pair = by_azimuth ? k / 2 : k;
+        const AmbientPart *part = &from->parts[(int)(from->count * fmod(0.6180339887498949 * pair, 1.0))];
         Dir o = dir(sin_o * tx, sin_o * ty, cos_o);
-        Dir i = lobe_sample(lobe, o, ((float)k + 0.5f) / SAMPLES, radical_inverse((uint32_t)pair));
+        Dir i = lobe_sample(&part->lobe, o, ((float)k + 0.5f) / SAMPLES, radical_inverse((uint32_t)pair));
         if (!(i.z > 0.0f)) continue;
-        LobeValue value = lobe_value(lobe, angles_between(o, i));
+        LobeValue value = lobe_value(&part->lobe, angles_between(o, i));
         if (!(value.pdf > 0.0f)) continue;
         float w = value.f * i.z / (value.pdf * SAMPLES);
         int n = light->count++;
         light->i[n] = dir(i.x * tx + i.y * ty, i.y * tx - i.x * ty, i.z);
-        light->w[0][n] = w * (1.0f - fresnel_weight_uncolored(value.s));
-        light->w[1][n] = w * fresnel_weight_uncolored(value.s); /* the share of the second colour */
+        light->w[0][n] = w * (1.0f - fresnel_weight_uncolored(value.s)) * part->first;
+        light->w[1][n] = w * fresnel_weight_uncolored(value.s) * part->second;
         for (int c = 0; c < 2; c++) light->e[c] += (double)light->w[c][n];
-        light->log2_density += (double)(w * log2(max(value.f * i.z, 1e-30f)));
+        const float both = light->w[0][n] + light->w[1][n];
+        light->log2_density += (double)(both * log2(max(value.f * i.z, 1e-30f)));
     }
     light->log2_density /= fmax(light->e[0] + light->e[1], 1e-30);
 }
@@ -263,7 +267,10 @@ static void fit_node(const Fitter *fitter, Reflected *light, FitNode at) {
     float root = fit->root_low, x = root_cos_at(at.column);
     if (fit->rows > 1) root = mix(root, fit->root_high, (float)at.row / (AMBIENT_ROWS - 1));
     if (weft_lobe_info(lobe.id)->param_count > 0) lobe_set(&lobe, 0, root * root);
-    reflect(light, &lobe, max(x * x, 1e-4f), (float)at.heading * 0.25f * PI, fit->by_azimuth);
+    const AmbientPart part = {lobe, 1.0f, 1.0f};
+    const AmbientMixture alone = {1, &part};
+    reflect(light, fitter->mixture ? fitter->mixture : &alone, max(x * x, 1e-4f), (float)at.heading * 0.25f * PI,
+            fit->by_azimuth);
     fit_weights(fitter, light, at);
     fit_shape(fit, light, at);
 }
@@ -317,14 +324,27 @@ void ambient_fit_finish(AmbientFit *fit) {
     fit->denser = denser / light;
 }
 
-void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads) {
-    Fitter fitter = {.fit = fit};
-    ambient_fit_shape(fit, lobe, low, high);
+/* Fills the table, whose shape is set. mixture: NULL for the lobe of the fit. */
+static void fit_table(AmbientFit *fit, const AmbientMixture *mixture, int threads) {
+    Fitter fitter = {.fit = fit, .mixture = mixture};
     for (int k = 0; k < LOOKUPS; k++) make_filter(&fitter.filters[k], lookups[k].kappa);
     for (int j = 0; j < LOOKUPS; j++)
         for (int k = 0; k < LOOKUPS; k++) fitter.a[j][k] = a_of(&fitter, j, k);
     parallel_for(threads, AMBIENT_COLUMNS, fit_column, &fitter);
     ambient_fit_finish(fit);
+}
+
+void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads) {
+    ambient_fit_shape(fit, lobe, low, high);
+    fit_table(fit, NULL, threads);
+}
+
+void ambient_fit_mixture(AmbientFit *fit, const AmbientMixture *mixture, int threads) {
+    const Lobe *first = &mixture->parts[0].lobe;
+    ambient_fit_shape(fit, first, first->params[0], first->params[0]);
+    fit->by_azimuth = true;
+    fit_table(fit, mixture, threads);
+    fit->denser = 0.0f; /* each of the lobes is denser than their mean */
 }
 
 /* Returns true if both lobes have the same parameters from number `first` on. The azimuth of leaning fibres may differ:

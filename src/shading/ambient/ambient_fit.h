@@ -24,6 +24,22 @@ typedef struct AmbientFit {
  * their number does not change the result. */
 void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads);
 
+/* A lobe of a mixture, and factors on its two colours. */
+typedef struct AmbientPart {
+    Lobe lobe;
+    float first, second;
+} AmbientPart;
+
+/* Lobes with one id that stand side by side, such as the points of a cloth: a surface shows the mean of all. */
+typedef struct AmbientMixture {
+    int count;
+    const AmbientPart *parts;
+} AmbientMixture;
+
+/* Fills a table of one row, by azimuth, for a mixture. More than 1,024 lobes are not all looked at from each
+ * direction. fit->lobe becomes the first of them, fit->denser 0. */
+void ambient_fit_mixture(AmbientFit *fit, const AmbientMixture *mixture, int threads);
+
 /* Sets all members but texels, finest and denser, for a fit whose texels come from a cache. */
 void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high);
 
