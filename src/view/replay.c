@@ -15,6 +15,7 @@
 #include "view/state/dialogs.h"
 #include "view/state/frame_requests.h"
 #include "view/state/opening.h"
+#include "view/state/sessions.h"
 #include "view/state/view_camera.h"
 
 enum { MOTIONS = 512, TRIES = 240, SIZE_MOST = 1 << 20 };
@@ -225,7 +226,9 @@ static bool numbers_of(const char *text, int count, float *numbers) {
 static bool is_wait(const char *what) {
     float number;
     const char *value = strchr(what, ' ');
-    if (is(what, "rest") || is(what, "shows drawn") || is(what, "shows traced") || is(what, "thumbnails")) return true;
+    static const char *const plain[] = {"rest", "shows drawn", "shows traced", "thumbnails", "session"};
+    for (size_t k = 0; k < sizeof plain / sizeof *plain; k++)
+        if (is(what, plain[k])) return true;
     if (strncmp(what, "message ", 8) == 0) return what[8] != 0;
     if (value &&
         (strncmp(what, "samples ", 8) == 0 || strncmp(what, "seconds ", 8) == 0 || strncmp(what, "summed ", 7) == 0))
@@ -236,8 +239,9 @@ static bool is_wait(const char *what) {
 /* Returns true while a wait goes on. */
 static bool still_waiting(Replay *self, Viewer *v, const char *what) {
     double start = self->since > 0.0 ? self->since : (self->since = clock_now());
-    bool done = is(what, "rest")                    ? viewer_is_idle(v) && v->shown->any && ++self->tries > 4
-                : is(what, "thumbnails")            ? v->presets && ++self->tries > 4 && !presets_busy(v)
+    bool done = is(what, "rest")         ? viewer_is_idle(v) && v->shown->any && ++self->tries > 4
+                : is(what, "thumbnails") ? v->presets && ++self->tries > 4 && !presets_busy(v)
+                : is(what, "session")    ? v->shown->any && (!v->sessions->file.path[0] || sessions_are_kept(v))
                 : strncmp(what, "samples ", 8) == 0 ? v->requests->traced.samples >= atof(what + 8)
                 : strncmp(what, "summed ", 7) == 0  ? v->requests->rendered.summed >= atoi(what + 7)
                 : strncmp(what, "shows ", 6) == 0   ? is(what + 6, shows_name(requests_shown(v)))

@@ -101,19 +101,17 @@ static void a_killed_window_comes_back_with_its_state(void **state) {
     say("click Panel/View\nwait 3\nset View/exposure 1.25\nclick View/Floor\nwait 2\n");
     say("drop rough.png\nwait 3\nclick \"Use a picture/As photograph\"\nwait rest\n");
     say("click View/place/Over\nwait rest\n");
-    say("key c\nwait rest\nclick Panel/Light\nwait 2\nwait seconds 3\nwait rest\nstay\n");
+    say("key c\nwait rest\nclick Panel/Light\nwait rest\nwait session\n");
+    say_picture("kept.png");
+    say("stay\n");
     Drive drive = drive_start(script, LIST(REMEMBERS, CHEAP));
-    await_session(&drive);
-    sleep_seconds(1.0);
-    json_t *was = drive_until(&drive, "command", "--exposure 1.25"), *later;
-    json_decref(was);
-    sleep_seconds(5.0); /* a session is kept every other second */
-    was = drive_rest(&drive);
+    json_t *was = drive_picture(&drive, "kept.png"), *later;
     kill_now(&drive);
     assert_int_equal(number_of(was, "split"), 1);
     assert_non_null(strstr(word_of(was, "unsaid"), "the brushed nap of Cloth\n"));
     assert_non_null(strstr(word_of(was, "unsaid"), "B of A and B"));
     assert_non_null(strstr(word_of(was, "command"), "--texture 0.roughness=rough.png"));
+    assert_non_null(strstr(word_of(was, "command"), "--exposure 1.25"));
 
     make_older();
     drive = drive_start("wait rest\nwindow restored.png\nwait rest\nstay\n", LIST(REMEMBERS, CHEAP));
@@ -139,14 +137,11 @@ static void a_cloth_and_the_last_scene_come_back_without_an_argument(void **stat
     script_begin();
     say("wait rest\nclick Material/Weave\nwait 3\nclick Material/draft\n");
     say("type twill 3/1 z; warp 1#26375c; weft 1#d8d4c8\nwait 2\nclick \"Material/Weave it\"\nwait 5\nwait "
-        "rest\nstay\n");
+        "rest\nwait session\nclick Panel/View\nwait 3\nset View/exposure 1.25\nwait rest\nstay\n");
     Drive drive = drive_start(script, LIST(REMEMBERS, "scene.gltf"));
-    await_session(&drive);
-    json_t *was = drive_until(&drive, "command", "26375c");
-    json_decref(was);
-    sleep_seconds(3.0);
-    was = drive_rest(&drive);
-    kill(drive.child, SIGTERM); /* it is told to end: that keeps the session too */
+    json_t *was = drive_until(&drive, "command", "--exposure 1.25");
+    assert_non_null(strstr(word_of(was, "command"), "26375c"));
+    kill(drive.child, SIGTERM); /* it is told to end: that keeps the session too, with what has just changed */
     Ran ran = program_end(drive.child);
     if (ran.code != WEFT_INTERRUPTED || !one_complaint(ran.err) || !strstr(ran.err, "the session is kept"))
         fail_msg("%d: \"%s\"", ran.code, ran.err);

@@ -12,7 +12,7 @@
 #include "view/files/user_files.h"
 #include "weft/weft.h"
 
-enum { FILE_MOST = 1 << 20, LOWEST_PRIORITY = 19 };
+enum { FILE_MOST = 1 << 20 };
 
 typedef enum ThumbStage { IDLE, WANTED, IN_WORK, MADE, TAKEN } ThumbStage;
 
@@ -127,7 +127,7 @@ static int next(Thumbs *self) {
 
 static void *run(void *user) {
     Thumbs *self = user;
-    setpriority(PRIO_PROCESS, (id_t)gettid(), LOWEST_PRIORITY);
+    setpriority(PRIO_PROCESS, (id_t)gettid(), 10); /* as the path tracer's: a lower one starves where others compile */
     for (int k; (k = next(self)) >= 0;) {
         Thumb made = {.index = k};
         make(self, self->entries[k].path, &made);

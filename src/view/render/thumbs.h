@@ -1,4 +1,4 @@
-/* thumbs.h - pictures of materials, path traced in a thread of the lowest priority and kept in the user's cache
+/* thumbs.h - pictures of materials, path traced in a thread of a lower priority and kept in the user's cache
  *
  * Each is builtin:swatch with the material on its cloth. The name of a file in the cache is a hash of the material's
  * text and weft's version. Only pictures that were requested are made, in the order of their numbers. */

@@ -171,21 +171,37 @@ void sessions_begin(Viewer *v, const Loaded *loaded) {
     }
     if (loaded->restored.session) restore_view(v, &loaded->restored);
     sessions->kept = session_json(v);
+    sessions->failed = false;
+}
+
+/* Returns true if the file holds this session, and the naps of the scene as it is edited. */
+static bool is_kept(const Viewer *v, const json_t *now) {
+    const SessionsState *sessions = v->sessions;
+    return json_equal(now, sessions->kept) && session_state_same_naps(&v->edit->state, &sessions->state) &&
+           session_state_same_naps(&v->edit->other, &sessions->other);
+}
+
+bool sessions_are_kept(const Viewer *v) {
+    if (v->sessions->failed) return false;
+    json_t *now = session_json(v);
+    const bool kept = is_kept(v, now);
+    json_decref(now);
+    return kept;
 }
 
 /* Writes the session, unless the file has it already. */
 static void keep(Viewer *v) {
     SessionsState *sessions = &v->states->sessions;
     json_t *now = session_json(v);
-    if (json_equal(now, sessions->kept) && session_state_same_naps(&v->edit->state, &sessions->state) &&
-        session_state_same_naps(&v->edit->other, &sessions->other)) {
+    if (is_kept(v, now)) {
         json_decref(now);
         return;
     }
-    const bool good = session_state_write_naps(&v->edit->state, &sessions->state, sessions->file.path, 0) &&
-                      session_state_write_naps(&v->edit->other, &sessions->other, sessions->file.path, STATE_NAPS) &&
-                      session_file_write(&sessions->file, now);
-    if (!good) viewer_report(v, true, "%.300s: cannot be written: the session is not kept", sessions->file.path);
+    sessions->failed = !(session_state_write_naps(&v->edit->state, &sessions->state, sessions->file.path, 0) &&
+                         session_state_write_naps(&v->edit->other, &sessions->other, sessions->file.path, STATE_NAPS) &&
+                         session_file_write(&sessions->file, now));
+    if (sessions->failed)
+        viewer_report(v, true, "%.300s: cannot be written: the session is not kept", sessions->file.path);
     forget(sessions);
     sessions->kept = now;
     if (!scene_state_copy(&sessions->state, &v->edit->state)) sessions->state = (SceneState){0};

@@ -10,6 +10,7 @@ typedef struct SessionsState {
     struct json_t *kept;     /* what the file holds, or what the scene was opened with; owned */
     SceneState state, other; /* whose naps the file has */
     double looked;           /* time of the last look for changes, s */
+    bool failed;             /* the file could not be written when the session last changed */
 } SessionsState;
 
 /* Claims the session of a scene that is about to be read. Returns its path, valid until the next call; "" if there is
@@ -25,6 +26,9 @@ bool sessions_last(char path[STATE_PATH]);
 
 /* Writes the session if it has changed, every other second. */
 void sessions_poll(Viewer *v, double seconds);
+
+/* Returns true if the file holds the session as it is now, or nothing differs from the scene as it was opened. */
+bool sessions_are_kept(const Viewer *v);
 
 /* Ends the session. keep: it is written, and restored when the scene is opened again. */
 void sessions_end(Viewer *v, bool keep);
