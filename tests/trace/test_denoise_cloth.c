@@ -14,7 +14,7 @@
 #include "weft/weft.h"
 #include "woven_presets.h"
 
-enum { WIDTH = 60, HEIGHT = 45, REFERENCE = 1024 };
+enum { WIDTH = 60, HEIGHT = 45, REFERENCE = 256 };
 
 /* Looks at folds of the cloth alone, which a pixel covers PIXEL metres of in the middle. */
 static const char camera[] = "-0.2,0.9,0.9;0,0.4,0;14";
