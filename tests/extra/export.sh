@@ -31,10 +31,10 @@ texts() { for file in ./*."$1"; do jq -Rs --arg name "${file#./}" '{($name): .}'
 } >texts.js
 browser() {
     timeout 300 chromium --headless --no-sandbox --disable-gpu-sandbox --use-gl=angle --use-angle=swiftshader \
-        --enable-unsafe-swiftshader --hide-scrollbars --virtual-time-budget=250000 "$@" "file://$PWD/export.html" 2>chromium.log
+        --enable-unsafe-swiftshader --hide-scrollbars --virtual-time-budget=250000 "$@" 2>chromium.log
 }
-browser --dump-dom >report.html
-browser --window-size=960,540 --screenshot="$PWD/../export.png" >/dev/null
+browser --dump-dom "file://$PWD/export.html" >report.html
+browser --window-size=960,540 --screenshot="$PWD/../export.png" "file://$PWD/export.html?picture" >/dev/null
 sed -n '/<pre/,/<\/pre>/p' report.html >report.txt
 grep FAILED report.txt && exit 1
 grep -q 'all done' report.txt || {

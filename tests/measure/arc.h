@@ -80,6 +80,7 @@ static inline void arc_write(const ArcView *view) {
     assert_int_equal(fclose(file), 0);
 }
 
+/* Lights a scene by one setup alone. */
 static inline void light_scene(WeftScene *scene, double degrees) {
     static const float black[3] = {0.0f, 0.0f, 0.0f}, white[3] = {1.0f, 1.0f, 1.0f};
     const double a = degrees * PI_DOUBLE / 180.0;
@@ -88,6 +89,8 @@ static inline void light_scene(WeftScene *scene, double degrees) {
                        .direction = {(float)-sin(a), 0.0f, (float)-cos(a)},
                        .color = {3.0f, 3.0f, 3.0f}};
     WeftResult result = weft_scene_set_environment_color(scene, degrees < 0.0 ? white : black, &error);
+    while (result == WEFT_OK && weft_scene_info(scene).light_count > 0)
+        result = weft_scene_remove_light(scene, 0, &error);
     if (result == WEFT_OK && degrees >= 0.0) result = weft_scene_add_light(scene, &light, &error);
     if (result != WEFT_OK) fail_msg("%s", error.text);
 }
@@ -97,14 +100,10 @@ static inline void light_scene(WeftScene *scene, double degrees) {
 static const char *const evens[][2] = {{"metres", "1"},      {"warp.barre", "0"},  {"weft.barre", "0"},
                                        {"warp.uneven", "0"}, {"weft.uneven", "0"}, {NULL, NULL}};
 
-/* Path traces the arc. Sets pixels to linear RGBA: of half of the samples, and of the other half where that is not NULL. */
-static inline void arc_render(const ArcView *view, WeftImage *image, WeftImage *other) {
-    char camera[128];
+/* Makes the arc of a view, bent as its setup has it, without light. Release with weft_scene_free. */
+static inline WeftScene *arc_scene(const ArcView *view) {
     WeftScene *scene;
-    WeftRender *render;
     WeftError error;
-    const double half = sin(BEND) * HEIGHT / WIDTH, far = 60.0;
-    snprintf(camera, sizeof camera, "0,0,%g;0,0,0;%.9g", far, 2.0 * atan(half / (far - 0.5)) * 180.0 / PI_DOUBLE);
     arc_write(view);
     WeftResult result = weft_scene_load("arc.gltf", &scene, NULL, &error);
     if (result == WEFT_OK) result = weft_scene_assign_material(scene, NULL, view->material, NULL, &error);
@@ -112,9 +111,20 @@ static inline void arc_render(const ArcView *view, WeftImage *image, WeftImage *
         result = weft_scene_weave(scene, "arc", evens[k][0], evens[k][1], NULL, &error);
     if (result == WEFT_OK && view->profile) result = weft_scene_set(scene, "arc.profile", view->profile, NULL, &error);
     if (result != WEFT_OK) fail_msg("%s", error.text);
+    return scene;
+}
+
+/* Path traces an arc under the light of a setup. Sets pixels to linear RGBA: of half of the samples, and of the other half
+ * where that is not NULL. */
+static inline void arc_trace(WeftScene *scene, const ArcView *view, WeftImage *image, WeftImage *other) {
+    char camera[128];
+    WeftRender *render;
+    WeftError error;
+    const double half = sin(BEND) * HEIGHT / WIDTH, far = 60.0;
+    snprintf(camera, sizeof camera, "0,0,%g;0,0,0;%.9g", far, 2.0 * atan(half / (far - 0.5)) * 180.0 / PI_DOUBLE);
     light_scene(scene, setups[view->setup].degrees);
     const WeftRenderDesc desc = {.width = WIDTH, .height = HEIGHT, .max_depth = 1, .camera = camera};
-    result = weft_render_create(scene, &desc, &render, &error);
+    WeftResult result = weft_render_create(scene, &desc, &render, &error);
     for (WeftImage *out = image; out && result == WEFT_OK; out = out == image ? other : NULL) {
         result = weft_render_run(render, view->samples, 0.0, NULL, NULL);
         if (result == WEFT_OK) result = weft_render_image(render, out, &error);
@@ -124,6 +134,11 @@ static inline void arc_render(const ArcView *view, WeftImage *image, WeftImage *
     for (int k = 0; later && k < WIDTH * HEIGHT * image->channels; k++)
         later[k] = 2.0f * later[k] - ((const float *)image->pixels)[k];
     weft_render_free(render);
+}
+
+static inline void arc_render(const ArcView *view, WeftImage *image, WeftImage *other) {
+    WeftScene *scene = arc_scene(view);
+    arc_trace(scene, view, image, other);
     weft_scene_free(scene);
 }
 

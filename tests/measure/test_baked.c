@@ -28,21 +28,38 @@ typedef struct Found {
     double profile, worst, sky, contrast;
 } Found;
 
+/* Compares a material under each setup with the cloth that it was made of. The arc of either is made once for each
+ * bend. */
+static void compare_setups(const char *path, const ArcView *made, Apart apart[SETUPS]) {
+    ArcView of[2] = {*made, *made};
+    of[0].material = path, of[0].profile = NULL;
+    for (int weft = 0; weft < 2; weft++) {
+        WeftScene *scenes[2] = {NULL, NULL};
+        for (int k = 0; k < SETUPS; k++) {
+            if (setups[k].weft != (weft == 1)) continue;
+            WeftImage images[2];
+            for (int t = 0; t < 2; t++) {
+                of[t].setup = k;
+                if (!scenes[t]) scenes[t] = arc_scene(&of[t]);
+                arc_trace(scenes[t], &of[t], &images[t], NULL);
+            }
+            apart[k] = compare(&images[1], &images[0]);
+            for (int t = 0; t < 2; t++) weft_image_free(&images[t]);
+        }
+        for (int t = 0; t < 2; t++) weft_scene_free(scenes[t]);
+    }
+}
+
 static Found find(const char *path, double zoom) {
     Found found = {.profile = 0.0};
+    Apart apart[SETUPS];
+    const ArcView made = {.material = "maps/material.json", .profile = "khronos", .zoom = zoom, .samples = 48};
+    compare_setups(path, &made, apart);
     for (int k = 0; k < SETUPS; k++) {
-        WeftImage truth, made;
-        arc_render(&(ArcView){.material = path, .zoom = zoom, .setup = k, .samples = 48}, &truth, NULL);
-        arc_render(
-            &(ArcView){.material = "maps/material.json", .profile = "khronos", .zoom = zoom, .setup = k, .samples = 48},
-            &made, NULL);
-        const Apart apart = compare(&made, &truth);
-        print_message(" %5.1f", 100.0 * apart.profile);
-        if (setups[k].degrees < 0.0) found.sky = apart.mean;
-        if (setups[k].degrees >= 0.0) found.profile += apart.profile / (SETUPS - 1);
-        if (setups[k].degrees >= 0.0) found.worst = fmax(found.worst, apart.profile);
-        weft_image_free(&truth);
-        weft_image_free(&made);
+        print_message(" %5.1f", 100.0 * apart[k].profile);
+        if (setups[k].degrees < 0.0) found.sky = apart[k].mean;
+        if (setups[k].degrees >= 0.0) found.profile += apart[k].profile / (SETUPS - 1);
+        if (setups[k].degrees >= 0.0) found.worst = fmax(found.worst, apart[k].profile);
     }
     double contrasts[2];
     for (int k = 0; k < 2; k++) {
@@ -110,16 +127,10 @@ static void baked_presets_are_shaded_as_their_threads(void **state) {
 /* Returns the error of the profile in the mean over the lights, at so many texels a pixel, under `three`. */
 static double profile_of(const char *path, const char *made, double zoom) {
     double sum = 0.0;
-    for (int k = 0; k < SETUPS; k++) {
-        WeftImage truth, image;
-        if (setups[k].degrees < 0.0) continue;
-        arc_render(&(ArcView){.material = path, .zoom = zoom, .setup = k, .samples = 32}, &truth, NULL);
-        arc_render(&(ArcView){.material = made, .profile = "three", .zoom = zoom, .setup = k, .samples = 32}, &image,
-                   NULL);
-        sum += compare(&image, &truth).profile / (SETUPS - 1);
-        weft_image_free(&truth);
-        weft_image_free(&image);
-    }
+    Apart apart[SETUPS];
+    compare_setups(path, &(ArcView){.material = made, .profile = "three", .zoom = zoom, .samples = 32}, apart);
+    for (int k = 0; k < SETUPS; k++)
+        if (setups[k].degrees >= 0.0) sum += apart[k].profile / (SETUPS - 1);
     return 100.0 * sum;
 }
 
