@@ -86,18 +86,19 @@ static const Definition definitions[] = {
     {"open_pbr_surface",
      " base_weight base_diffuse_roughness base_metalness specular_weight specular_roughness specular_ior "
      "specular_roughness_anisotropy fuzz_weight fuzz_roughness coat_weight coat_roughness coat_roughness_anisotropy "
-     "coat_ior coat_darkening emission_luminance geometry_opacity ",
-     " base_color specular_color fuzz_color coat_color emission_color ",
+     "coat_ior coat_darkening emission_luminance geometry_opacity transmission_weight transmission_depth ",
+     " base_color specular_color fuzz_color coat_color emission_color transmission_color ",
      " geometry_normal geometry_coat_normal geometry_tangent geometry_coat_tangent ", " geometry_thin_walled "},
     {"gltf_pbr",
      " metallic roughness occlusion specular ior alpha alpha_cutoff sheen_roughness clearcoat clearcoat_roughness "
-     "emissive_strength ",
-     " base_color specular_color sheen_color emissive ", " normal tangent clearcoat_normal ", " alpha_mode "},
+     "emissive_strength transmission thickness attenuation_distance ",
+     " base_color specular_color sheen_color emissive attenuation_color ", " normal tangent clearcoat_normal ",
+     " alpha_mode "},
     {"standard_surface",
      " base diffuse_roughness metalness specular specular_roughness specular_IOR specular_anisotropy sheen "
-     "sheen_roughness coat coat_roughness coat_anisotropy coat_IOR emission ",
-     " base_color specular_color sheen_color coat_color emission_color opacity ", " normal tangent coat_normal ",
-     " thin_walled "},
+     "sheen_roughness coat coat_roughness coat_anisotropy coat_IOR emission transmission transmission_depth ",
+     " base_color specular_color sheen_color coat_color emission_color opacity transmission_color ",
+     " normal tangent coat_normal ", " thin_walled "},
 };
 
 static void has_word(const char *list, const char *word) {
@@ -300,6 +301,81 @@ static void lost_parts_have_a_line_each(void **state) {
     weft_scene_free(scene);
 }
 
+static bool is_workflow_metallic(const MaterialFile *file) {
+    const int choice = weft_material_choice_find("workflow");
+    const char *id = weft_material_choice_value(choice, file->material.choices[choice]);
+    return id && strcmp(id, "metallic") == 0;
+}
+
+/* Thin and solid glass, tinted where it enters, absorbing inside, or both, through each node. A node without a thickness
+ * has one colour for both. */
+static void glass_survives_the_round_trip(void **state) {
+    (void)state;
+    static const struct {
+        const char *share, *thickness, *distance;
+        float base[3];
+        bool both; /* colours, of which one is lost where the node has one */
+    } cases[] = {
+        {"1", "0", "0", {0.5f, 0.75f, 0.25f}, false},       {"0.5", "0", "0", {0.5f, 0.75f, 0.25f}, false},
+        {"1", "0.02", "0", {0.5f, 0.75f, 0.25f}, false},    {"1", "0.02", "0.125", {1.0f, 1.0f, 1.0f}, false},
+        {"1", "0.02", "0.125", {0.5f, 0.75f, 0.25f}, true},
+    };
+    static const float inside[3] = {0.875f, 0.5f, 0.625f};
+    const char *path = "glass.mtlx";
+    for (int node = 0; node < WEFT_MTLX_NODES; node++)
+        for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+            const bool one_color = node != WEFT_MTLX_GLTF, solid = cases[k].thickness[1] != 0,
+                       absorbs = cases[k].distance[1] != 0, base_lost = cases[k].both && one_color;
+            char color[64];
+            WeftScene *scene = cloth();
+            snprintf(color, sizeof color, "%g,%g,%g", (double)cases[k].base[0], (double)cases[k].base[1],
+                     (double)cases[k].base[2]);
+            set(scene, "Cloth.base_color", color);
+            set(scene, "Cloth.transmission", cases[k].share);
+            set(scene, "Cloth.thickness", cases[k].thickness);
+            set(scene, "Cloth.attenuation_distance", cases[k].distance);
+            set(scene, "Cloth.attenuation_color", "0.875,0.5,0.625");
+            set(scene, "Cloth.ior", "1.33");
+            scene->materials[index_of_cloth(scene)].double_sided = true;
+            save(scene, path, (WeftMtlxNode)node);
+            assert_int_equal(warnings, (one_color && solid) + base_lost);
+            if (one_color && solid) assert_non_null(strstr(said, "thickness: "));
+            if (base_lost) assert_non_null(strstr(said, "base_color: the node has one colour for glass"));
+            weft_scene_free(scene);
+            check_document(path, node);
+            MaterialFile file = load(path);
+            if (warnings) fail_msg("%s", said);
+            const Input *inputs = file.material.inputs;
+            assert_true(is_workflow_metallic(&file)); /* which draws glass */
+            near(inputs[INPUT_transmission].value[0], strtof(cases[k].share, NULL));
+            near(inputs[INPUT_ior].value[0], 1.33f);
+            assert_int_equal(inputs[INPUT_thickness].value[0] > 0.0f, solid);
+            if (!one_color) near(inputs[INPUT_thickness].value[0], strtof(cases[k].thickness, NULL));
+            near(inputs[INPUT_attenuation_distance].value[0], strtof(cases[k].distance, NULL));
+            for (int c = 0; c < 3; c++) {
+                near(inputs[INPUT_base_color].value[c], base_lost ? 1.0f : cases[k].base[c]);
+                if (absorbs) near(inputs[INPUT_attenuation_color].value[c], inside[c]);
+            }
+            material_file_free(&file);
+        }
+}
+
+/* Glass that the workflow does not draw is not written. */
+static void glass_that_is_not_drawn_is_left_out(void **state) {
+    (void)state;
+    const char *path = "opaque.mtlx";
+    WeftScene *scene = cloth();
+    set(scene, "Cloth.transmission", "1");
+    set(scene, "Cloth.workflow", "disney");
+    for (int node = 0; node < WEFT_MTLX_NODES; node++) {
+        save(scene, path, (WeftMtlxNode)node);
+        MaterialFile file = load(path);
+        near(value(&file, INPUT_transmission), 0.0f);
+        material_file_free(&file);
+    }
+    weft_scene_free(scene);
+}
+
 /* Writes a picture of one colour. */
 static void picture(const char *path, int r, int g, int b) {
     WeftImage image;
@@ -366,6 +442,54 @@ static void textures_survive_the_round_trip(void **state) {
 #define SHADER(inputs)                                                                                                 \
     "<materialx version=\"1.39\"><open_pbr_surface name=\"s\" type=\"surfaceshader\">" inputs                          \
     "</open_pbr_surface></materialx>"
+
+/* Glass of other programs: the colour of its walls, of what is inside, of walls that only half the light goes through. */
+static void glass_of_others_is_read(void **state) {
+    (void)state;
+    const char *path = "pane.mtlx";
+    picture("pane.png", 200, 100, 50);
+    put_text(path, SHADER("<input name=\"transmission_weight\" type=\"float\" value=\"1\"/>"
+                          "<input name=\"transmission_color\" type=\"color3\" value=\"0.2,0.4,0.6\"/>"
+                          "<input name=\"transmission_scatter\" type=\"color3\" value=\"0,0,0\"/>"
+                          "<input name=\"geometry_thin_walled\" type=\"boolean\" value=\"true\"/>"));
+    MaterialFile file = load(path);
+    near(file.material.inputs[INPUT_base_color].value[2], 0.6f);
+    near(value(&file, INPUT_thickness), 0.0f);
+    assert_true(file.material.double_sided);
+    assert_int_equal(warnings, 0);
+    material_file_free(&file);
+    put_text(path, SHADER("<input name=\"transmission_weight\" type=\"float\" value=\"0.5\"/>"
+                          "<input name=\"transmission_color\" type=\"color3\" value=\"0.2,0.4,0.6\"/>"
+                          "<input name=\"transmission_scatter\" type=\"color3\" value=\"0,0.1,0\"/>"));
+    file = load(path);
+    near(file.material.inputs[INPUT_base_color].value[2], 0.8f);
+    assert_true(value(&file, INPUT_thickness) > 0.0f);
+    assert_non_null(strstr(said, "transmission_color: light goes through in base_color"));
+    assert_non_null(strstr(said, "transmission_scatter: is not shown"));
+    assert_int_equal(warnings, 2);
+    material_file_free(&file);
+    put_text(
+        path,
+        "<materialx version=\"1.39\"><image name=\"c\" type=\"color3\"><input name=\"file\" type=\"filename\" "
+        "value=\"pane.png\" colorspace=\"srgb_texture\"/></image>"
+        "<standard_surface name=\"s\" type=\"surfaceshader\"><input name=\"transmission\" type=\"float\" value=\"1\"/>"
+        "<input name=\"base\" type=\"float\" value=\"0\"/>"
+        "<input name=\"thin_walled\" type=\"boolean\" value=\"true\"/>"
+        "<input name=\"transmission_color\" type=\"color3\" nodename=\"c\"/></standard_surface></materialx>");
+    file = load(path);
+    assert_true(file.material.inputs[INPUT_base_color].texture > 0);
+    near(value(&file, INPUT_base_color), 1.0f);
+    assert_int_equal(file.material.inputs[INPUT_attenuation_color].texture, 0);
+    assert_int_equal(warnings, 0);
+    material_file_free(&file);
+    /* what lets nothing through has no colour for it */
+    put_text(path, SHADER("<input name=\"transmission_color\" type=\"color3\" value=\"0.2,0.4,0.6\"/>"));
+    file = load(path);
+    near(file.material.inputs[INPUT_attenuation_color].value[0], 1.0f);
+    near(file.material.inputs[INPUT_base_color].value[0], 0.8f);
+    assert_false(is_workflow_metallic(&file));
+    material_file_free(&file);
+}
 
 /* A document as libraries of materials have them: tiles, a prefix, a weight beside the colour, packed maps. */
 static void documents_of_others_are_read(void **state) {
@@ -494,7 +618,8 @@ int main(void) {
         cmocka_unit_test(workflows_become_reflections),     cmocka_unit_test(every_preset_is_written_as_every_node),
         cmocka_unit_test(lost_parts_have_a_line_each),      cmocka_unit_test(textures_survive_the_round_trip),
         cmocka_unit_test(documents_of_others_are_read),     cmocka_unit_test(others_are_refused_in_one_line),
-        cmocka_unit_test(circles_of_nodes_are_passed_over),
+        cmocka_unit_test(circles_of_nodes_are_passed_over), cmocka_unit_test(glass_survives_the_round_trip),
+        cmocka_unit_test(glass_of_others_is_read),          cmocka_unit_test(glass_that_is_not_drawn_is_left_out),
     };
     if (!scratch_enter(folder)) return 1;
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

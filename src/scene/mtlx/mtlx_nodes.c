@@ -22,6 +22,9 @@ static const MtlxRow open_pbr[] = {
     SAME("specular_roughness", FLOAT, roughness, 0.3f),
     SAME("specular_ior", FLOAT, ior, 1.5f),
     SAME("specular_roughness_anisotropy", FLOAT, anisotropy, 0.0f),
+    SAME("transmission_weight", FLOAT, transmission, 0.0f),
+    SAME("transmission_color", COLOR, attenuation_color, 1.0f),
+    SAME("transmission_depth", FLOAT, attenuation_distance, 0.0f),
     SAME("fuzz_weight", FLOAT, fuzz, 0.0f),
     SAME("fuzz_color", COLOR, fuzz_color, 1.0f),
     SAME("fuzz_roughness", FLOAT, fuzz_roughness, 0.5f),
@@ -61,6 +64,10 @@ static const MtlxRow gltf_pbr[] = {
     SAME("clearcoat_normal", NORMAL, clearcoat_normal, 1.0f),
     SAME("emissive", COLOR, emission, 0.0f),
     SAME("emissive_strength", FLOAT, emission_strength, 1.0f),
+    SAME("transmission", FLOAT, transmission, 0.0f),
+    SAME("thickness", FLOAT, thickness, 0.0f),
+    {"attenuation_distance", MTLX_FLOAT, MTLX_FINITE, INPUT_attenuation_distance, 0.0f},
+    SAME("attenuation_color", COLOR, attenuation_color, 1.0f),
     END,
 };
 
@@ -74,6 +81,9 @@ static const MtlxRow standard_surface[] = {
     SAME("specular_roughness", FLOAT, roughness, 0.2f),
     SAME("specular_IOR", FLOAT, ior, 1.5f),
     SAME("specular_anisotropy", FLOAT, anisotropy, 0.0f),
+    SAME("transmission", FLOAT, transmission, 0.0f),
+    SAME("transmission_color", COLOR, attenuation_color, 1.0f),
+    SAME("transmission_depth", FLOAT, attenuation_distance, 0.0f),
     SAME("sheen", FLOAT, sheen, 0.0f),
     SAME("sheen_color", COLOR, sheen_color, 1.0f),
     {"sheen_roughness", MTLX_FLOAT, MTLX_SQUARE, INPUT_sheen_roughness, 0.3f},
@@ -92,12 +102,14 @@ static const MtlxRow standard_surface[] = {
     END,
 };
 
-static const char *const open_pbr_unshown[] = {"transmission_weight", "subsurface_weight", "thin_film_weight", NULL};
-static const char *const gltf_unshown[] = {"transmission", "iridescence", "thickness", NULL};
-static const char *const standard_unshown[] = {"transmission",        "subsurface",
-                                               "thin_film_thickness", "coat_affect_color",
-                                               "coat_rotation",       "coat_affect_roughness",
-                                               "specular_rotation",   NULL};
+static const char *const open_pbr_unshown[] = {"transmission_scatter", "transmission_dispersion_scale",
+                                               "subsurface_weight", "thin_film_weight", NULL};
+static const char *const gltf_unshown[] = {"iridescence", "dispersion", NULL};
+static const char *const standard_unshown[] = {"transmission_scatter",    "transmission_extra_roughness",
+                                               "transmission_dispersion", "subsurface",
+                                               "thin_film_thickness",     "coat_affect_color",
+                                               "coat_rotation",           "coat_affect_roughness",
+                                               "specular_rotation",       NULL};
 
 #define BASE_CHOICES                                                                                                   \
     "workflow=metallic workflow=none diffuse=lambert d=ggx v=smith-ggx f=schlick rim=sheen rim=fuzz layer_by=max "     \
@@ -258,10 +270,32 @@ static void stretch_from_node(MtlxStretch stretch, Input *roughness, Input *anis
     anisotropy->value[0] = alpha.y < 1.0f ? sqrtf(fmaxf((alpha.x - alpha.y) / (1.0f - alpha.y), 0.0f)) : 0.0f;
 }
 
+bool mtlx_is_glass(const Material *material) {
+    return !material->cloth && !material->measured && material_has_glass(material);
+}
+
+bool mtlx_absorbs(const Material *material) {
+    return material_is_solid(material) && material->inputs[INPUT_attenuation_distance].value[0] > 0.0f;
+}
+
+/* Takes out glass that is not drawn, and turns the colours of other glass into the one of a node without a thickness. */
+static void glass_to_node(const MtlxNodeInfo *node, Material *material) {
+    const Material plain = material_default();
+    const bool glass = mtlx_is_glass(material), solid = material_is_solid(material), absorbs = mtlx_absorbs(material);
+    Input *inputs = material->inputs;
+    if (!glass) inputs[INPUT_transmission] = plain.inputs[INPUT_transmission];
+    if (mtlx_row_of(node, INPUT_thickness)) return;
+    if (glass) material->double_sided = !solid;
+    if (absorbs) return;
+    inputs[INPUT_attenuation_color] = glass ? inputs[INPUT_base_color] : plain.inputs[INPUT_attenuation_color];
+    inputs[INPUT_attenuation_distance] = plain.inputs[INPUT_attenuation_distance];
+}
+
 void mtlx_to_node(WeftMtlxNode node, Material *material) {
     const Choices choices = material_choices(material);
     const MtlxStretch stretch = mtlx_nodes[node].stretch;
     Input *inputs = material->inputs;
+    glass_to_node(&mtlx_nodes[node], material);
     const bool disney = to_metallic(material, &choices);
     if (node == WEFT_MTLX_OPEN_PBR)
         sheen_fuzz_put(material);

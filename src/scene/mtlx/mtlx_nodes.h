@@ -26,7 +26,8 @@ typedef enum MtlxRule {
     MTLX_MAP,        /* the texture of the weft input without the number, which is a strength */
     MTLX_ALPHA_MODE, /* 0 opaque, 1 mask, 2 blend */
     MTLX_ALPHA_CUTOFF,
-    MTLX_TWO_SIDED
+    MTLX_TWO_SIDED,
+    MTLX_FINITE /* as MTLX_SAME; not written where it is 0, which stands for infinity */
 } MtlxRule;
 
 typedef struct MtlxRow {
@@ -66,8 +67,14 @@ const MtlxRow *mtlx_row_of(const MtlxNodeInfo *node, int input);
 void mtlx_flip(const float from[6], float to[6]);
 
 /* Turns the numbers of a material into those that the node asks for in the same inputs: of any workflow into those of a
- * metallic one with an ior; sheen and fuzz into what the node has, as a weight and a colour; widths of highlights. */
+ * metallic one with an ior; sheen and fuzz into what the node has, as a weight and a colour; widths of highlights; glass.
+ * A node without a thickness has one colour for glass: that of the walls, which is base_color, or with a depth that of what is
+ * inside. Both are in INPUT_attenuation_color, and double_sided then says that the walls are thin. */
 void mtlx_to_node(WeftMtlxNode node, Material *material);
+
+/* Returns true if light goes through a material as through glass, which is drawn; if that is a solid that absorbs light. */
+bool mtlx_is_glass(const Material *material);
+bool mtlx_absorbs(const Material *material);
 
 /* Turns widths of highlights that were read from a node into a roughness and an anisotropy. */
 void mtlx_from_node(WeftMtlxNode node, Material *material);

@@ -139,6 +139,7 @@ static void set_value(MtlxReader *r, const MtlxRow *row, const float v[3]) {
         break;
     case MTLX_SQUARE: to[0] = sqrtf(fmaxf(v[0], 0.0f)); break;
     case MTLX_MAP: break; /* without a texture nothing is darker */
+    case MTLX_FINITE:
     case MTLX_SAME: memcpy(to, v, 3 * sizeof *to); break;
     }
 }
@@ -207,18 +208,23 @@ static void read_row(MtlxReader *r, const MtlxRow *row) {
         set_value(r, row, v);
 }
 
+/* Returns true if a text is a number or a colour, of zeros. */
+static bool is_zero(const char *text) {
+    float v[3] = {0.0f, 0.0f, 0.0f};
+    if (!mtlx_numbers(text, v, 1) && !mtlx_numbers(text, v, 3)) return false;
+    return is_equal(v[0], 0.0f) && is_equal(v[1], 0.0f) && is_equal(v[2], 0.0f);
+}
+
 /* Warns of inputs that switch on what is not shown, and of those that the node does not have. */
 static void read_others(MtlxReader *r) {
     static const char *const parts[] = {"transmission_", "subsurface_", "thin_film_", "iridescence_", "attenuation_"};
     for (const XmlElement *input = r->shader->first; input; input = input->next) {
         const char *name = xml_attribute(input, "name");
-        float value = 0.0f;
         bool known = !name || strcmp(input->name, "input") != 0 || mtlx_row(r->node, name) != NULL;
         for (int k = 0; !known && r->node->unshown[k]; k++) {
             if (strcmp(name, r->node->unshown[k]) != 0) continue;
             known = true;
-            if (mtlx_is_connected(input) || !mtlx_numbers(xml_attribute(input, "value"), &value, 1) || value < 0.0f ||
-                value > 0.0f)
+            if (mtlx_is_connected(input) || !is_zero(xml_attribute(input, "value")))
                 ignore(r, input, "%.60s: is not shown", name);
         }
         for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
@@ -238,6 +244,57 @@ static void settle_off(MtlxReader *r, InputId weight, InputId color) {
     if (!is_black(&inputs[weight]) && !is_black(&inputs[color])) return;
     memset(inputs[color].value, 0, sizeof inputs[color].value);
     inputs[weight].value[0] = 1.0f;
+}
+
+static void drop(MtlxReader *r, InputId id) {
+    json_decref(r->textures[id]);
+    r->textures[id] = NULL;
+    r->has[id] = false;
+}
+
+/* Gives what tints light on its way through glass to base_color. Where not all light goes that way, base_color is that
+ * of the rest, and stays. */
+static void tint_base(MtlxReader *r) {
+    Input *base = &r->material.inputs[INPUT_base_color], *color = &r->material.inputs[INPUT_attenuation_color];
+    const Input *share = &r->material.inputs[INPUT_transmission];
+    json_t **mine = &r->textures[INPUT_base_color], *its = r->textures[INPUT_attenuation_color];
+    bool same = json_equal(*mine, its) != 0;
+    if (!*mine && !its) {
+        same = true;
+        for (int c = 0; c < 3; c++) same = same && is_equal(base->value[c], color->value[c]);
+    }
+    if (same) return;
+    if (!(share->value[0] >= 1.0f) || r->textures[INPUT_transmission]) {
+        ignore(r, r->shader, "transmission_color: light goes through in base_color, as glTF has it");
+        return;
+    }
+    memcpy(base->value, color->value, sizeof base->value);
+    json_decref(*mine);
+    *mine = json_incref(its);
+    r->weights[INPUT_base_color] = 1.0f;
+}
+
+/* Turns the one colour of glass that a node without a thickness has into base_color of what is thin or absorbs
+ * nothing, else into that of what is inside. */
+static void settle_glass(MtlxReader *r) {
+    static const float solid_metres = 0.01f; /* the node has no thickness; tracers take that of the mesh */
+    Input *inputs = r->material.inputs;
+    if (r->has[INPUT_thickness]) return;
+    const bool glass = r->textures[INPUT_transmission] || inputs[INPUT_transmission].value[0] > 0.0f,
+               solid = glass && !r->material.double_sided,
+               absorbs = solid && inputs[INPUT_attenuation_distance].value[0] > 0.0f;
+    r->has[INPUT_thickness] = solid;
+    inputs[INPUT_thickness].value[0] = solid_metres;
+    if (glass && !absorbs) tint_base(r);
+    if (absorbs && r->textures[INPUT_attenuation_color])
+        ignore(r, r->shader, "transmission_color: a texture of what is inside glass is not read: its number counts");
+    drop(r, INPUT_attenuation_color);
+    if (!absorbs) drop(r, INPUT_attenuation_distance);
+    r->has[INPUT_attenuation_color] = absorbs;
+    if (!absorbs || !(inputs[INPUT_transmission].value[0] >= 1.0f) || r->textures[INPUT_transmission]) return;
+    for (int c = 0; c < 3; c++) inputs[INPUT_base_color].value[c] = 1.0f;
+    drop(r, INPUT_base_color);
+    r->has[INPUT_base_color] = true;
 }
 
 static json_t *value_json(MtlxReader *r, InputId id) {
@@ -266,7 +323,9 @@ static json_t *material_json(MtlxReader *r) {
     static const char *const modes[] = {"opaque", "mask", "blend"}; /* as WeftAlphaMode */
     const Material *m = &r->material;
     json_t *root = json_object();
-    put(r, root, r->node->shader, json_string(r->node->shader_id));
+    /* profile openpbr draws no glass */
+    const bool glass = r->textures[INPUT_transmission] || m->inputs[INPUT_transmission].value[0] > 0.0f;
+    put(r, root, glass ? "workflow" : r->node->shader, json_string(glass ? "metallic" : r->node->shader_id));
     for (int k = 0; k < INPUT_COUNT; k++) {
         if (!r->has[k]) continue;
         if (r->textures[k])
@@ -328,6 +387,7 @@ static json_t *read_root(MtlxReader *r, const XmlElement *root) {
     mtlx_from_node((WeftMtlxNode)node, &r->material);
     settle_off(r, INPUT_emission_strength, INPUT_emission);
     settle_off(r, INPUT_sheen, INPUT_sheen_color);
+    settle_glass(r);
     weigh_textures(r);
     return material_json(r);
 }

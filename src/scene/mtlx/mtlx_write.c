@@ -248,6 +248,7 @@ static void put_surface(const Document *d) {
     for (const MtlxRow *row = d->node->rows; row->name; row++) {
         const bool vector = row->type == MTLX_NORMAL || row->type == MTLX_TANGENT, made = is_made(d, row);
         if (vector && !made) continue;
+        if (row->rule == MTLX_FINITE && !(input_of(d, row)->value[0] > 0.0f)) continue;
         fprintf(d->out, "    <input name=\"%s\" type=\"%s\" ", row->name, mtlx_type_name(row->type));
         if (made) {
             fprintf(d->out, "nodegraph=\"");
@@ -295,7 +296,7 @@ static void inputs_lost(const MtlxNodeInfo *node, const Material *given, const c
                  {INPUT_dust, INPUT_dust},
                  {INPUT_retroreflection, INPUT_retroreflection},
                  {INPUT_diffuse_transmission, INPUT_diffuse_transmission},
-                 {INPUT_transmission, INPUT_transmission},
+                 {INPUT_thickness, INPUT_transmission},
                  {INPUT_subsurface, INPUT_subsurface},
                  {INPUT_diffuse_roughness, INPUT_diffuse_roughness},
                  {INPUT_anisotropy, INPUT_anisotropy},
@@ -328,6 +329,14 @@ static void textures_lost(const MtlxWriting *writing, const Material *given, con
     }
 }
 
+/* Returns true if what goes through glass is tinted where it enters. */
+static bool tints(const Material *material) {
+    const Input *base = &material->inputs[INPUT_base_color];
+    bool any = base->texture != 0;
+    for (int c = 0; c < 3; c++) any = any || !is_equal(base->value[c], 1.0f);
+    return any;
+}
+
 static void choices_lost(const MtlxNodeInfo *node, const Material *given, const char *subject, const WeftLog *log) {
     const bool rim = is_seen(given, INPUT_fuzz) || (is_seen(given, INPUT_sheen) && is_seen(given, INPUT_sheen_color));
     for (int k = 0; k < CHOICE_COUNT; k++) {
@@ -346,6 +355,7 @@ static void choices_lost(const MtlxNodeInfo *node, const Material *given, const 
 void mtlx_losses(const MtlxWriting *writing, const Material *given, bool back, const char *subject,
                  const WeftLog *log) {
     const MtlxNodeInfo *node = &mtlx_nodes[writing->node];
+    const bool has_one_color = !mtlx_row_of(node, INPUT_thickness);
     const struct {
         bool lost;
         const char *text;
@@ -355,6 +365,10 @@ void mtlx_losses(const MtlxWriting *writing, const Material *given, bool back, c
         {given->measured != 0, "its measurement: the numbers fitted to it are written"},
         {given->hair[WEFT_HAIR_LENGTH] > 0.0f, "its hair, which is geometry"},
         {back, "its back: MaterialX gives a material one"},
+        {has_one_color && mtlx_absorbs(given) && tints(given),
+         "base_color: the node has one colour for glass, which is attenuation_color"},
+        {has_one_color && mtlx_is_glass(given) && !material_is_solid(given) && !given->double_sided,
+         "its one side: thin glass of the node has two"},
         {given->unlit != 0, "unlit: the node reflects light"},
         {given->alpha_mode == WEFT_ALPHA_MASK && writing->node != WEFT_MTLX_GLTF, "alpha_cutoff: the opacity blends"},
     };
