@@ -155,6 +155,14 @@ static void draft_is_delivered_to_every_target(void **state) {
     assert_non_null(strstr(json_string_value(json_object_get(lost, "why")), "highlights are round"));
     assert_true(json_array_size(json_object_get(lost, "materials")) == 1);
     assert_string_equal(json_string_value(json_array_get(json_object_get(lost, "materials"), 0)), "cloth");
+    /* Babylon.js has the fit of three.js, without mip levels */
+    static const char *const fitted[] = {"three", "babylon", "core"};
+    for (int k = 0; k < 3; k++) {
+        const json_t *materials = json_object_get(target_of(summary, fitted[k]), "materials");
+        const json_t *baked = json_object_get(json_array_get(materials, 0), "baked");
+        assert_true(number(baked, "fitted") > 0.0 && number(baked, "fitted") < number(baked, "copied"));
+        assert_true((number(baked, "levels") > 0.0) == (k == 0));
+    }
     json_decref(summary);
     folder_clear("cloth");
 }
@@ -543,6 +551,9 @@ static void senseless_delivery_is_refused(void **state) {
     assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three"), WEFT_USAGE, "-o DIR is required");
     assert_complaint(NULL, LIST("deliver", "felt.binary", "--to", "three", "-o", "no"), WEFT_USAGE, "weft fit FILE");
     assert_complaint(NULL, LIST("deliver", "nothing here", "--to", "three", "-o", "no"), WEFT_USAGE, "nothing");
+    file_make("model.obj", "v 0 0 0\n", 8);
+    assert_complaint(NULL, LIST("deliver", "model.obj", "--to", "three", "-o", "no"), WEFT_INPUT,
+                     "model.obj: is nothing that can be delivered");
     assert_complaint(NULL, LIST("deliver", "gone.glb", "--to", "three", "-o", "no"), WEFT_INPUT, "gone.glb");
     assert_complaint(NULL, LIST("deliver", "preset:velvet", "--to", "three", "--from", "three", "-o", "no"), WEFT_USAGE,
                      "--from: goes with an asset");

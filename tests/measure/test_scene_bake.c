@@ -91,11 +91,12 @@ static void inputs_over_threads_are_kept_or_said_to_be_lost(void **state) {
     weft_losses_free(&lost);
 }
 
-/* A triangle in a material named "a", and one in a material named after the number of the first; the first is rotated poplin. */
-static WeftScene *scene_with_a_number_for_a_name(void) {
+/* A triangle in a material named "a", and one in a material named after the number of the first; the first is poplin, with its
+ * coordinates in an attribute of that name. */
+static WeftScene *scene_with_a_number_for_a_name(const char *coordinates) {
     static const char text[] =
         "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":0},"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"%s\":1},\"material\":0},"
         "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":1}]}],"
         "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[-1,-1,0],"
         "\"max\":[1,1,0]},{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"}],"
@@ -106,11 +107,10 @@ static WeftScene *scene_with_a_number_for_a_name(void) {
     WeftScene *scene;
     WeftError error;
     assert_non_null(file);
-    assert_true(fwrite(text, 1, sizeof text - 1, file) == sizeof text - 1);
+    assert_true(fprintf(file, text, coordinates) > 0);
     assert_int_equal(fclose(file), 0);
     WeftResult result = weft_scene_load("two.gltf", &scene, NULL, &error);
     if (result == WEFT_OK) result = weft_scene_assign_material(scene, "a", "preset:woven-poplin", NULL, &error);
-    if (result == WEFT_OK) result = weft_scene_weave(scene, "a", "rotation", "30", NULL, &error);
     if (result != WEFT_OK) fail_msg("%s", error.text);
     return scene;
 }
@@ -122,8 +122,9 @@ static void a_name_that_is_a_number_is_another_material(void **state) {
     WeftBaking baking = small;
     WeftMaterial second;
     WeftError error;
-    WeftScene *scene = scene_with_a_number_for_a_name();
+    WeftScene *scene = scene_with_a_number_for_a_name("TEXCOORD_0");
     baking.losses = &losses;
+    assert_int_equal(weft_scene_weave(scene, "a", "rotation", "30", NULL, &error), WEFT_OK);
     if (weft_scene_bake(scene, 0, &baking, "maps-two", NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_int_not_equal(material_of(scene).inputs[input("base_color")].texture, 0);
     assert_int_equal(weft_scene_material(scene, 1, &second, &error), WEFT_OK);
@@ -132,6 +133,22 @@ static void a_name_that_is_a_number_is_another_material(void **state) {
     assert_string_equal(losses.items[0].what, "rotation");
     assert_string_equal(losses.items[0].name, "a");
     if (!strstr(losses.items[0].why, "rotated by 30 degrees")) fail_msg("%s", losses.items[0].why);
+    weft_losses_free(&losses);
+    weft_scene_free(scene);
+}
+
+/* A baked cloth that has no place on its mesh is told. */
+static void threads_without_coordinates_are_said_to_be_lost(void **state) {
+    (void)state;
+    WeftLosses losses = {0};
+    WeftBaking baking = small;
+    WeftError error;
+    WeftScene *scene = scene_with_a_number_for_a_name("_OTHER");
+    baking.losses = &losses;
+    if (weft_scene_bake(scene, 0, &baking, "maps-none", NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(losses.count, 1);
+    assert_string_equal(losses.items[0].what, "threads");
+    if (!strstr(losses.items[0].why, "no texture coordinates")) fail_msg("%s", losses.items[0].why);
     weft_losses_free(&losses);
     weft_scene_free(scene);
 }
@@ -210,6 +227,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(textures_take_the_place_of_threads_below_the_fuzz),
                                        cmocka_unit_test(inputs_over_threads_are_kept_or_said_to_be_lost),
                                        cmocka_unit_test(a_name_that_is_a_number_is_another_material),
+                                       cmocka_unit_test(threads_without_coordinates_are_said_to_be_lost),
                                        cmocka_unit_test(white_cloth_is_as_bright_at_any_size),
                                        cmocka_unit_test(a_stopped_search_leaves_no_maps),
                                        cmocka_unit_test(an_unwoven_material_is_refused)};

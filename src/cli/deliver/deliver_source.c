@@ -1,6 +1,8 @@
 /* deliver_source.c - the source of a delivery, as a scene and as a glTF file */
 #define _XOPEN_SOURCE 700
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -29,6 +31,19 @@ static int material_load(const char *what, WeftScene *scene, const WeftLog *log)
     char path[DELIVER_PATH];
     snprintf(path, sizeof path, "%s%s", is_preset(what) ? "preset:" : "", what);
     return told(weft_scene_assign_material(scene, NULL, path, log, &error), &error);
+}
+
+/* Returns true for a file that is none of those that can be delivered, by its name and by what it holds. */
+static bool is_foreign(const char *what) {
+    static const char *const drafts[] = {".wif", ".dtx", ".wpo"};
+    WeftDraft *draft = NULL;
+    WeftError error;
+    for (size_t k = 0; k < sizeof drafts / sizeof *drafts; k++)
+        if (path_ends(what, drafts[k])) return false;
+    if (access(what, R_OK) != 0) return false;
+    const WeftResult result = weft_draft_read(what, &draft, NULL, &error);
+    weft_draft_free(draft);
+    return result != WEFT_OK && error.message == WEFT_MESSAGE_DRAFT;
 }
 
 /* Weaves the cloth of the scene from a draft, as `weft weave` does. */
@@ -105,6 +120,12 @@ int source_load(Delivery *delivery, WeftScene **out) {
         return report(WEFT_USAGE,
                       "%.300s: is a measurement, not a material; fit one to it first: weft fit FILE -o fitted.json",
                       delivery->what);
+    if (kind == SOURCE_DRAFT && is_foreign(delivery->what))
+        return report(
+            WEFT_INPUT,
+            "%.300s: is nothing that can be delivered: neither an asset (.gltf, .glb), a material (.json, .u3m, "
+            ".u3ma, .mtlx) nor a draft (.wif, .dtx, .wpo, a picture)",
+            delivery->what);
     int result = told(weft_scene_load_watched(file ? delivery->what : "builtin:bend", delivery_heed, delivery, out,
                                               file ? log : NULL, &error),
                       &error);
@@ -115,11 +136,16 @@ int source_load(Delivery *delivery, WeftScene **out) {
     return result;
 }
 
+/* Writes the name of what cloth is baked for. */
+static void baking_name(const WeftBaking *how, char name[64]) {
+    snprintf(name, 64, "%.32s-%d-%d", how->profile, how->levels, how->one_face);
+}
+
 /* Gives a woven material the textures of its cloth. */
-static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftBaking *how) {
+static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftBaking *how, WeftBaked *found) {
     WeftBaking baking = *how;
     WeftError error;
-    char folder[DELIVER_PATH];
+    char folder[DELIVER_PATH], name[64];
     WeftMaterial material;
     const WeftResult result = weft_scene_material(scene, index, &material, &error);
     if (result != WEFT_OK || !material.cloth) return told(result, &error);
@@ -127,18 +153,32 @@ static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const Wef
     baking.losses = &delivery->losses;
     baking.progress = delivery_heed;
     baking.user = delivery;
-    snprintf(folder, sizeof folder, "%.3900s/bake-%.32s-%d-%d-%d", delivery->temporary, baking.profile, baking.levels,
-             baking.one_face, index);
-    return told(weft_scene_bake(scene, index, &baking, folder, NULL, &error), &error);
+    baking_name(how, name);
+    snprintf(folder, sizeof folder, "%.3900s/bake-%s-%d", delivery->temporary, name, index);
+    return told(weft_scene_bake(scene, index, &baking, folder, found, &error), &error);
 }
 
-int source_bake(Delivery *delivery, const WeftBaking *how, WeftScene **out) {
+/* Returns the place for the errors of a baked source; NULL where memory is short. */
+static BakedSource *source_add(Delivery *delivery, const WeftBaking *how, int materials) {
+    BakedSource *source = &delivery->sources[delivery->source_count];
+    source->materials = calloc((size_t)materials + 1, sizeof *source->materials);
+    if (!source->materials) return NULL;
+    baking_name(how, source->name);
+    delivery->source_count++;
+    return source;
+}
+
+int source_bake(Delivery *delivery, TargetFile *file, const WeftBaking *how, WeftScene **out) {
     int result = source_load(delivery, out);
-    const int count = result == 0 ? weft_scene_info(*out).material_count : 0;
-    const double low = delivery->low, high = delivery->high, each = (high - low) / (count ? count : 1);
+    if (result != 0 || !delivery->woven) return result;
+    const int count = weft_scene_info(*out).material_count;
+    BakedSource *source = source_add(delivery, how, count);
+    if (!source) return report(WEFT_RESOURCES, "%.300s: %s", delivery->what, weft_message_text(WEFT_MESSAGE_MEMORY));
+    file->source = source;
+    const double low = delivery->low, high = delivery->high, each = (high - low) / fmax(count, 1.0);
     for (int k = 0; k < count && result == 0; k++) {
         delivery_part(delivery, low + each * k, low + each * (k + 1));
-        result = cloth_bake(delivery, *out, k, how);
+        result = cloth_bake(delivery, *out, k, how, &source->materials[k]);
         if (result == 0 && delivery_heed(delivery, 1.0)) result = WEFT_INTERRUPTED;
     }
     delivery_part(delivery, low, high);
@@ -150,7 +190,7 @@ bool target_levels(const Delivery *delivery, const TargetFile *file) {
            (delivery->textures == TEXTURES_AUTO && file_target(file).levels != 0);
 }
 
-int source_write(Delivery *delivery, const TargetFile *file, char path[DELIVER_PATH], int *from) {
+int source_write(Delivery *delivery, TargetFile *file, char path[DELIVER_PATH], int *from) {
     const WeftTarget target = file_target(file);
     const char *profile = target.fit;
     const bool levels = target_levels(delivery, file);
@@ -165,9 +205,14 @@ int source_write(Delivery *delivery, const TargetFile *file, char path[DELIVER_P
         *from = kind_find(kind_of("profile"), target.profile);
     else if (delivery->from >= 0) /* beside cloth there is what was made for that engine, and the file is for one */
         profile = weft_profile_name(delivery->from);
-    snprintf(path, DELIVER_PATH, "%.3900s/source-%.32s-%d.glb", delivery->temporary, profile, levels);
+    const WeftBaking how = {.profile = profile, .levels = levels, .one_face = 1};
+    char name[64];
+    baking_name(&how, name);
+    snprintf(path, DELIVER_PATH, "%.3900s/source-%s.glb", delivery->temporary, name);
+    for (int k = 0; k < delivery->source_count; k++)
+        if (strcmp(delivery->sources[k].name, name) == 0) file->source = &delivery->sources[k];
     if (access(path, F_OK) == 0) return 0; /* made for an earlier target */
-    int result = source_bake(delivery, &(WeftBaking){.profile = profile, .levels = levels, .one_face = 1}, &scene);
+    int result = source_bake(delivery, file, &how, &scene);
     if (result == 0) result = told(weft_scene_save(scene, path, &error), &error);
     weft_scene_free(scene);
     return result;

@@ -59,15 +59,28 @@ static void view_write(Json *json, const char *key, const ViewErrors *errors) {
     json_close(json, '}');
 }
 
-static void materials_write(Json *json, const WeftDelivery *delivery) {
+/* Writes how far the textures of a woven material are off its threads. */
+static void baked_write(Json *json, const WeftBaked *baked) {
+    json_open(json, "baked", '{');
+    json_number(json, "copied", baked->copied);
+    json_number(json, "fitted", baked->fitted);
+    json_number(json, "even_sky", baked->sky);
+    json_number(json, "contrast", baked->contrast);
+    json_number(json, "levels", baked->levels);
+    json_close(json, '}');
+}
+
+static void materials_write(Json *json, const TargetFile *file) {
     json_open(json, "materials", '[');
-    for (int k = 0; k < delivery->material_count; k++) {
-        const WeftDelivered *material = &delivery->materials[k];
+    for (int k = 0; k < file->delivery.material_count; k++) {
+        const WeftDelivered *material = &file->delivery.materials[k];
+        const WeftBaked *baked = file->source ? &file->source->materials[k] : NULL;
         json_open(json, NULL, '{');
         json_text(json, "material", material->name);
         json_number(json, "copied", material->found.copied);
         json_number(json, "matched", material->found.matched);
         json_number(json, "even_sky", material->even_sky);
+        if (baked && baked->copied > 0.0) baked_write(json, baked);
         json_close(json, '}');
     }
     json_close(json, ']');
@@ -96,7 +109,7 @@ static void target_file_write(Json *json, const Delivery *delivery, const Target
     losses_write(json, &delivery->losses);
     losses_write(json, &file->delivery.losses);
     json_close(json, ']');
-    materials_write(json, &file->delivery);
+    materials_write(json, file);
     json_close(json, '}');
 }
 

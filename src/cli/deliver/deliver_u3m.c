@@ -45,7 +45,7 @@ int u3m_write(Delivery *delivery, TargetFile *file, const char *path) {
     if (delivery->materials != 1)
         return report(WEFT_USAGE, "--to u3m: a U3M holds one material, and %.300s has %d; deliver each by itself",
                       delivery->what, delivery->materials);
-    int result = source_bake(delivery, &(WeftBaking){.profile = file_target(file).fit}, &scene);
+    int result = source_bake(delivery, file, &(WeftBaking){.profile = file_target(file).fit}, &scene);
     if (result == 0) result = material_write(scene, path, &file->delivery.losses);
     weft_scene_free(scene);
     return result;

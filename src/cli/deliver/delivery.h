@@ -40,9 +40,16 @@ typedef enum TextureFormat { TEXTURES_AUTO, TEXTURES_PNG, TEXTURES_KTX2 } Textur
 /* Stands for a U3M among targets, which are glTF otherwise. */
 enum { TARGET_U3M = -1 };
 
+/* What is delivered, with its cloth baked for some targets. */
+typedef struct BakedSource {
+    char name[64];        /* of what it was baked for */
+    WeftBaked *materials; /* of each material of X, 0 where it is not woven; owned */
+} BakedSource;
+
 /* A file that was made for a target. */
 typedef struct TargetFile {
-    int target; /* as weft_target_info counts, or TARGET_U3M */
+    int target;                /* as weft_target_info counts, or TARGET_U3M */
+    const BakedSource *source; /* of which it was made; NULL: of X itself, or of X without cloth */
     WeftDelivery delivery;
     Errors errors;
     long long bytes;
@@ -67,6 +74,8 @@ typedef struct Delivery {
     WeftLosses losses; /* what the original has and its textures lack */
     TargetFile files[DELIVER_TARGETS];
     int count;
+    BakedSource sources[DELIVER_TARGETS];
+    int source_count;
     Progress progress;
     double low, high; /* the part of the work that runs */
 } Delivery;
@@ -86,13 +95,13 @@ int told(WeftResult result, const WeftError *error);
 /* Reads what is delivered as a scene, which is what the pictures are compared with. May be called again. */
 int source_load(Delivery *delivery, WeftScene **out);
 
-/* Reads what is delivered, with its cloth baked. how: the profile, and whether textures have mip levels of their own and
- * the cloth has one face. What the textures lack is added to `losses`. */
-int source_bake(Delivery *delivery, const WeftBaking *how, WeftScene **out);
+/* Reads what is delivered for a file, with its cloth baked, whose errors the file then names. how: the profile, and whether
+ * textures have mip levels of their own and the cloth has one face. What the textures lack is added to `losses`. */
+int source_bake(Delivery *delivery, TargetFile *file, const WeftBaking *how, WeftScene **out);
 
 /* Makes the glTF file that the file of a target is made from, and sets its path, and the profile that its numbers are
  * meant for. */
-int source_write(Delivery *delivery, const TargetFile *file, char path[DELIVER_PATH], int *from);
+int source_write(Delivery *delivery, TargetFile *file, char path[DELIVER_PATH], int *from);
 
 /* Returns true if textures for a target have mip levels of their own. */
 bool target_levels(const Delivery *delivery, const TargetFile *file);

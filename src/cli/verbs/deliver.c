@@ -221,6 +221,7 @@ static int deliver_run(const Options *options) {
     else if (result == 0)
         summary_print(&delivery);
     for (int k = 0; k < delivery.count; k++) weft_delivery_free(&delivery.files[k].delivery);
+    for (int k = 0; k < delivery.source_count; k++) free(delivery.sources[k].materials);
     weft_losses_free(&delivery.losses);
     return result;
 }

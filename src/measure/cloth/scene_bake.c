@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "scene/material/assign.h"
+#include "scene/material/cloth_fit.h"
 #include "weft/match.h"
 #include "weft/weave.h"
 
@@ -42,8 +43,8 @@ static WeftMaterial without_layers(const WeftMaterial *woven) {
     return bare;
 }
 
-/* Lists what the textures lack of a woven material: its rotation, what is dropped, and textures on anything but the
- * layers. Returns false where memory is short. */
+/* Lists what the textures lack of a woven material: its rotation, a place on the mesh, what is dropped, and textures on
+ * anything but the layers. Returns false where memory is short. */
 static bool list_lost(const WeftScene *scene, int index, const WeftMaterial *woven, WeftLosses *losses) {
     const WeftMaterial bare = without_layers(woven);
     const double degrees = (double)weft_scene_cloth_info(scene, woven->cloth).rotation;
@@ -52,6 +53,9 @@ static bool list_lost(const WeftScene *scene, int index, const WeftMaterial *wov
     char why[96];
     snprintf(why, sizeof why, "the weave lies straight, and is rotated by %g degrees in the original", degrees);
     if (degrees > 0.0 || degrees < 0.0) room = weft_losses_add(losses, index, name, "rotation", why) != 0;
+    if (weft_scene_material_used(scene, index) && !(cloth_uv_metres(scene, index, 0, NULL) > 0.0))
+        room = room && weft_losses_add(losses, index, name, "threads",
+                                       "its mesh has no texture coordinates, so that all of it shows one texel");
     for (int d = 0; d < DROPPED; d++) {
         if (!is_there(woven, dropped[d])) continue;
         snprintf(why, sizeof why, "%g of it is not baked",
