@@ -113,9 +113,11 @@ static void compare(WeftScene *scene, WeftRaster *raster, WeftRaster *without, c
     weft_image_free(&plain);
 }
 
-static void compare_turned(bool slab, const char *camera, double most) {
+/* veil: the part of the floor's light that comes through. */
+static void compare_turned(bool slab, float veil, const char *camera, double most) {
     need_gl();
     WeftScene *scene = shaded(slab);
+    scene->materials[0].inputs[INPUT_diffuse_transmission].value[0] = veil;
     WeftRaster *raster = raster_of(scene, 64), *without = raster_of(scene, 0);
     compare(scene, raster, without, camera, 20.0f, most);
     compare(scene, raster, without, camera, 200.0f, most);
@@ -126,17 +128,24 @@ static void compare_turned(bool slab, const char *camera, double most) {
 
 static void shadows_of_environment_lights_are_those_of_the_path_tracer(void **state) {
     (void)state;
-    compare_turned(false, "0,6,0.01;0,0,0;24", 0.04);
+    compare_turned(false, 0.0f, "0,6,0.01;0,0,0;24", 0.04);
 }
 
 /* The floor is cut at the rims of the shadows, and cut anew where they lie once the map is turned. */
 static void shadows_on_two_triangles_are_those_of_the_path_tracer(void **state) {
     (void)state;
-    compare_turned(true, "0,9,0.01;0,0,0;30", 0.012);
+    compare_turned(true, 0.0f, "0,9,0.01;0,0,0;30", 0.012);
+}
+
+/* A veil in place of the floor is seen from below: it shows the wall's shadows, not light through the wall. */
+static void shadows_show_through_a_veil(void **state) {
+    (void)state;
+    compare_turned(false, 0.8f, "0,-6,0.01;0,0,0;24", 0.04);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(shadows_of_environment_lights_are_those_of_the_path_tracer),
-                                       cmocka_unit_test(shadows_on_two_triangles_are_those_of_the_path_tracer)};
+                                       cmocka_unit_test(shadows_on_two_triangles_are_those_of_the_path_tracer),
+                                       cmocka_unit_test(shadows_show_through_a_veil)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -125,6 +125,19 @@ FN Rgb ambient_glass(const Stack *m, const StackView *w, AmbientSource s, Rgb ov
     return rgb_mul(rgb_mul(over, passed), ambient_radiance(s, dir(-w->o.x, -w->o.y, -w->o.z), kappa));
 }
 
+/* Returns the mean radiance of an environment behind the surface, weighted by the cosine. Each light has its own
+ * visibility: what hides a window hides more than its part of the sky. open: the visible part of the sky there. */
+FN Rgb ambient_behind(AmbientSource s, float open) {
+    Rgb sum = rgb_scale(ambient_residual(s, dir(0.0f, 0.0f, -1.0f), 0.0f), open);
+    int count = ambient_light_count(s);
+    for (int k = 0; k < count; k++) {
+        AmbientLight l = ambient_light(s, k);
+        float seen = l.w.z < 0.0f ? ambient_light_visibility(s, k, open) : 0.0f;
+        sum = rgb_add(sum, rgb_scale(l.color, seen * max(-l.w.z, 0.0f) * (1.0f / PI)));
+    }
+    return sum;
+}
+
 /* Returns what a stack reflects towards wo of an environment without its lights, and what comes through. t: the tables
  * of its lobes. occlusion, occlusion_behind: the visible part of the cosine-weighted sky on either side, 0 to 1. lights:
  * gets the view with scales for the lights still to be added, by the slots in only. It is linear in the diffuse lobe's
@@ -148,8 +161,8 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
         only->diffuse = SHOWS_DIFFUSE && a.lights_scale > 0.0f;
     }
     if (HAS_TRANSMITTED(m) && SHOWS_DIFFUSE) {
-        float behind = w->scale.diffuse * clamp(occlusion_behind, 0.0f, 1.0f) * diffuse_factor;
-        Rgb light = rgb_scale(ambient_irradiance(s, dir(-v.z.x, -v.z.y, -v.z.z)), behind);
+        Rgb light =
+            rgb_scale(ambient_behind(s, clamp(occlusion_behind, 0.0f, 1.0f)), w->scale.diffuse * diffuse_factor);
         sum = rgb_add(sum, rgb_mul(through.diffuse, rgb_mul(m->transmitted, light)));
     }
     if (HAS_GLASS(m) && SHOWS_DIFFUSE) sum = rgb_add(sum, ambient_glass(m, w, s, through.specular));
