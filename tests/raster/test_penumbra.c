@@ -168,6 +168,50 @@ static void shadows_of_a_cloth_are_the_path_tracers(void **state) {
     weft_scene_free(scene);
 }
 
+/* Returns sum |drawn - traced| over the sum of what is traced, of a lamp at a height over the middle of three walls. */
+static double off_by_point(float height) {
+    static const char camera[] = "0.2,2,1.5;0,0,0;50";
+    const WeftLight lamp = {.kind = WEFT_LIGHT_POINT, .position = {0.1f, height, 0.05f}, .color = {3.0f, 3.0f, 3.0f}};
+    WeftScene *scene = test_scene();
+    WeftRaster *raster;
+    WeftImage drawn = {0};
+    const WeftRasterView view = {.width = SIDE, .height = SIDE, .samples = 4, .camera = camera};
+    const WeftRenderDesc desc = {.width = SIDE, .height = SIDE, .max_depth = 1, .camera = camera};
+    double off = 0.0, sum = 0.0;
+    test_material(scene, 0.8f);
+    test_quad(scene, vec3(-1.0f, 0.0f, 1.0f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -2.0f));
+    test_quad(scene, vec3(-0.3f, 0.0f, 0.3f), vec3(0.0f, 0.0f, -0.6f), vec3(0.0f, 0.4f, 0.0f));
+    test_quad(scene, vec3(0.4f, 0.0f, 0.3f), vec3(0.0f, 0.0f, -0.6f), vec3(0.0f, 0.4f, 0.0f));
+    test_quad(scene, vec3(-0.3f, 0.0f, -0.4f), vec3(0.6f, 0.0f, 0.0f), vec3(0.0f, 0.3f, 0.0f));
+    scene_bounds(scene);
+    test_environment(scene, 0.0f);
+    assert_int_equal(weft_scene_add_light(scene, &lamp, NULL), WEFT_OK);
+    assert_int_equal(weft_raster_create(scene, &(WeftRasterDesc){0}, &raster, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_raster_draw(raster, &view, NULL), WEFT_OK);
+    assert_int_equal(weft_raster_image(raster, &drawn, NULL), WEFT_OK);
+    WeftImage traced = test_render(scene, desc, 64);
+    for (int k = 0; k < SIDE * SIDE; k++) {
+        const double t = (double)at(&traced, k % SIDE, k / SIDE);
+        off += fabs((double)at(&drawn, k % SIDE, k / SIDE) - t);
+        sum += t;
+    }
+    weft_image_free(&drawn);
+    weft_image_free(&traced);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+    print_message("a point light at height %.1f: %.1f %% from the path tracer\n", (double)height, 100.0 * off / sum);
+    return off / sum;
+}
+
+/* Above the walls; and between them, where the map has what lies below. Without shadows 20 % are off. */
+static void point_light_casts_the_path_tracers_shadow(void **state) {
+    (void)state;
+    need_gl();
+    assert_true(off_by_point(2.5f) < 0.04);
+    assert_true(off_by_point(0.8f) < 0.05);
+    assert_true(off_by_point(0.2f) < 0.13);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(penumbra_has_no_bands),
@@ -175,6 +219,7 @@ int main(void) {
         cmocka_unit_test(floor_before_a_wall_does_not_shade_it),
         cmocka_unit_test(shadows_do_not_mind_far_ground),
         cmocka_unit_test(shadows_of_a_cloth_are_the_path_tracers),
+        cmocka_unit_test(point_light_casts_the_path_tracers_shadow),
     };
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -95,24 +95,50 @@ static Shadow of_directional(const Light *light, Box casters) {
                     .texel = 2.0f * radius / SHADOW_SIDE};
 }
 
-static Shadow of_spot(const Light *light) {
+/* Returns the map of an eye that looks along a direction, `half` to either side at distance 1. */
+static Shadow with_perspective(Vec3 eye, Vec3 forward, float half) {
     Vec3 right, up;
-    float cosine = fmaxf(light->cos_outer, 0.1f), half = sqrtf(1.0f - cosine * cosine) / cosine * 1.02f;
-    across(light->direction, &right, &up);
-    return (Shadow){.view = {.eye = light->position,
-                             .forward = light->direction,
-                             .across = vec3_scale(right, half),
-                             .up = vec3_scale(up, half)},
-                    .texel = 2.0f * half / SHADOW_SIDE};
+    across(forward, &right, &up);
+    return (Shadow){
+        .view = {.eye = eye, .forward = forward, .across = vec3_scale(right, half), .up = vec3_scale(up, half)},
+        .texel = 2.0f * half / SHADOW_SIDE};
+}
+
+static Shadow of_spot(const Light *light) {
+    float cosine = fmaxf(light->cos_outer, 0.1f);
+    return with_perspective(light->position, light->direction, sqrtf(1.0f - cosine * cosine) / cosine * 1.02f);
+}
+
+/* The widest map of a light that sends light to all sides: half of its width at distance 1. */
+static const float HALF_MOST = 6.0f;
+
+/* Returns the map of a point light towards the casters. It contains all of them, unless the light is among them: then it
+ * has those within 80 degrees of their middle. */
+static Shadow of_point(const Light *light, Box casters) {
+    const Vec3 down = {0.0f, -1.0f, 0.0f}, middle = vec3_scale(vec3_add(casters.low, casters.high), 0.5f);
+    const Vec3 forward = vec3_normal_or(vec3_sub(middle, light->position), down);
+    Vec3 right, up;
+    float half = 1e-3f;
+    across(forward, &right, &up);
+    for (int k = 0; k < 8; k++) {
+        const Vec3 c = along(vec3_sub(box_corner(casters, k), light->position), right, up, forward);
+        const float wide = fmaxf(fabsf(c.x), fabsf(c.y));
+        half = fmaxf(half, c.z * HALF_MOST > wide ? 1.02f * wide / c.z : HALF_MOST);
+    }
+    return with_perspective(light->position, forward, fminf(half, HALF_MOST));
+}
+
+static Shadow of_punctual(const Light *light, Box casters) {
+    if (light->kind == LIGHT_DIRECTIONAL) return of_directional(light, casters);
+    return light->kind == LIGHT_SPOT ? of_spot(light) : of_point(light, casters);
 }
 
 static float strength(const Light *light) {
-    return light->kind == LIGHT_POINT ? -1.0f
-                                      : light->intensity * (light->color[0] + light->color[1] + light->color[2]);
+    return light->intensity * (light->color[0] + light->color[1] + light->color[2]);
 }
 
 /* Returns the strongest light of a kind that has no map yet, or -1. The kinds are chosen in turn, since a sun and a
- * spot cannot be compared. */
+ * lamp cannot be compared. */
 static int strongest(const WeftScene *scene, const Shadows *shadows, LightKind kind) {
     int best = -1;
     for (int k = 0; k < scene->light_count; k++) {
@@ -132,13 +158,12 @@ static void add(Shadows *self, const WeftScene *scene, Box casters, Shadow shado
 }
 
 static void choose_lights(const WeftScene *scene, int most, Box casters, Shadows *self) {
-    for (int n = 0, missed = 0; self->count < most && missed < 2; n++) {
-        LightKind kind = n % 2 ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
-        int k = strongest(scene, self, kind);
+    static const LightKind kinds[] = {LIGHT_DIRECTIONAL, LIGHT_SPOT, LIGHT_POINT};
+    enum { KINDS = sizeof kinds / sizeof *kinds };
+    for (int n = 0, missed = 0; self->count < most && missed < KINDS; n++) {
+        int k = strongest(scene, self, kinds[n % KINDS]);
         missed = k < 0 ? missed + 1 : 0;
-        if (k < 0) continue;
-        const Light *light = &scene->lights[k];
-        add(self, scene, casters, kind == LIGHT_SPOT ? of_spot(light) : of_directional(light, casters), k, -1);
+        if (k >= 0) add(self, scene, casters, of_punctual(&scene->lights[k], casters), k, -1);
     }
 }
 
@@ -184,7 +209,6 @@ static float half_width(const Shadow *self, const Vec3 corners[8]) {
 /* Returns the shadow map of a polygon with layers of side x side texels, from its middle towards the casters. It contains
  * all of them, unless the polygon is among them. */
 static Shadow of_polygon(const LightPolygon *polygon, Box casters, int side) {
-    const float most = 6.0f;
     Vec3 eye = {0}, right, up, corners[8], middle = vec3_scale(vec3_add(casters.low, casters.high), 0.5f);
     for (int k = 0; k < polygon->count; k++) eye = vec3_madd(eye, polygon->corners[k], 1.0f / (float)polygon->count);
     Vec3 to = vec3_sub(middle, eye);
@@ -199,7 +223,7 @@ static Shadow of_polygon(const LightPolygon *polygon, Box casters, int side) {
     }
     for (int k = 0; k < 8; k++) corners[k] = along(vec3_sub(box_corner(casters, k), eye), right, up, forward);
     float half = half_width(&self, corners);
-    if (!(half > 0.0f && half < most)) self.meeting = 0.0f, half = most;
+    if (!(half > 0.0f && half < HALF_MOST)) self.meeting = 0.0f, half = HALF_MOST;
     self.view = (View){.eye = eye, .forward = forward, .across = vec3_scale(right, half), .up = vec3_scale(up, half)};
     self.texel = 2.0f * half / (float)side;
     return self;

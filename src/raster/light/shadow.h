@@ -35,7 +35,7 @@ typedef struct Shadows {
     bool drawn;                    /* the textures are up to date */
 } Shadows;
 
-/* Chooses the lights: the strongest directional and spot lights, and the strongest polygons, for which at least half of
+/* Chooses the lights: the strongest punctual lights of each kind, and the strongest polygons, for which at least half of
  * the maps are reserved. OpenGL objects are made only if there is a light. Fails with WEFT_MESSAGE_GL_MEMORY or
  * _GL_CONTEXT. */
 WeftResult shadows_create(const WeftScene *scene, const LightPolygons *polygons, Shadows *out, WeftError *error);
