@@ -188,6 +188,11 @@ WEFT_API void weft_raster_finish(WeftRaster *raster);
  * when there is nothing to draw for a while. */
 WEFT_API void weft_raster_return_memory(void);
 
+/* Frees what is not needed to show or read the last picture again, such as the samples of each pixel, twelve bytes a
+ * sample; the next picture makes it anew. Then returns free memory to the system, as weft_raster_return_memory does.
+ * Call it when there is nothing to draw for a while, not between the frames of a sum. raster may be NULL. */
+WEFT_API void weft_raster_rest(WeftRaster *raster);
+
 /* The state of a raster. */
 typedef struct WeftRasterInfo {
     const char *driver;     /* name of the driver; lives as long as the raster */

@@ -122,8 +122,8 @@ static void weaves_reflect_what_they_reflect_in_the_path_tracer(void **state) {
     static const char *const more[] = {"woven-charmeuse", "woven-linen",      "woven-poplin", "woven-twill",
                                        "woven-gabardine", "irawan-charmeuse", "woven-wool",   "sadeghi-linen"};
     bool all = true;
-    for (size_t k = 0; k < sizeof few / sizeof *few; k++) all &= check_preset(few[k]);
-    for (size_t k = 0; k < sizeof more / sizeof *more && test_long(); k++) all &= check_preset(more[k]);
+    for (size_t k = 0; k < sizeof few / sizeof *few; k++) all = check_preset(few[k]) && all;
+    for (size_t k = 0; k < sizeof more / sizeof *more && test_long(); k++) all = check_preset(more[k]) && all;
     assert_true(all);
 }
 

@@ -456,6 +456,15 @@ void weft_raster_finish(WeftRaster *self) {
 
 void weft_raster_return_memory(void) { memory_return(); }
 
+void weft_raster_rest(WeftRaster *self) {
+    GlOuter outer;
+    if (self && self->target.drawn && self->target.samples > 1 && context_enter(self->context, &outer)) {
+        target_keep_mean(&self->target);
+        context_leave(self->context, &outer);
+    }
+    memory_return();
+}
+
 WeftRasterInfo weft_raster_info(const WeftRaster *self) {
     WeftRasterInfo info = {.driver = context_driver(self->context),
                            .compiled = self->programs.compiled,

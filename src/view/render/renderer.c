@@ -216,7 +216,7 @@ static void *work(void *user) {
         pthread_mutex_unlock(&self->lock);
         bool changed = reload_changes(self);
         if (waited && !changed && self->spare) {
-            weft_raster_return_memory();
+            weft_raster_rest(self->raster);
             self->spare = false;
         }
         pthread_mutex_lock(&self->lock);
