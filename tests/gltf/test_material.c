@@ -483,10 +483,16 @@ static void factors_outside_their_range_are_repaired_with_a_warning(void **state
     float ior = reading->scene->materials[0].inputs[INPUT_ior].value[0];
     assert_near((ior - 1.0f) / (ior + 1.0f), 1.0f, 1e-5f); /* reflects everything */
     done(reading);
-    reading = read_material(textures(), "'normalTexture':{'index':0,'texCoord':4}");
+    /* of three sets of coordinates the third is dropped */
+    reading = read_material(textures(), "'normalTexture':{'index':0,'texCoord':4},'occlusionTexture':{'index':0,"
+                                        "'texCoord':1},'emissiveTexture':{'index':0}");
     assert_read(reading);
     assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_IGNORED], 1);
-    assert_input(reading, INPUT_normal, 1, 0, 0, -1);
+    assert_int_equal(reading->scene->materials[0].inputs[INPUT_normal].texcoord, 1);
+    assert_int_equal(reading->scene->materials[0].inputs[INPUT_occlusion].texcoord, 0);
+    assert_input(reading, INPUT_normal, 1, 0, 0, 0);
+    assert_input(reading, INPUT_occlusion, 1, 0, 0, 0);
+    assert_input(reading, INPUT_emission, 0, 0, 0, -1);
     done(reading);
 }
 
