@@ -87,7 +87,8 @@ typedef enum WeftSeverity {
     F(U3M_TINT, "u3m-tint", NOTE, 0, "a sheen of a U3M has the tint 0, which programs take for other defaults")        \
     F(U3M_COAT_NORMAL, "u3m-coat-normal", NOTE, 0, "a clear coat of a U3M is flat over a base with normals")           \
     F(U3M_GREEN, "u3m-green", WARNING, 0, "green points down in the normals of a U3M")                                 \
-    F(U3M_NORMAL_SPACE, "u3m-normal-space", WARNING, 0, "the normals of a U3M are encoded as colours")
+    F(U3M_NORMAL_SPACE, "u3m-normal-space", WARNING, 0, "the normals of a U3M are encoded as colours")                 \
+    F(IMAGE_BASIS, "image-basis", WARNING, 0, "a KTX 2 picture is none that KHR_texture_basisu allows")
 
 /* The kinds of findings: WEFT_FINDING_EXTENSION_REQUIRED and the rest of WEFT_FINDINGS. */
 typedef enum WeftFindingKind {

@@ -17,7 +17,7 @@
 #include "weft/save.h"
 
 /* Pictures of 4 x 4 pixels. */
-typedef enum Picture { COLORS, ALPHAS, BLACK, GREY, PLAIN, CHROME, LINEAR, DAMAGED, KTX2 } Picture;
+typedef enum Picture { COLORS, ALPHAS, BLACK, GREY, PLAIN, CHROME, LINEAR, DAMAGED, KTX2, BASIS } Picture;
 
 static void paint(Picture picture, WeftImage *image) {
     WeftError error;
@@ -82,7 +82,9 @@ static const char *picture_uri(Picture picture) {
     if (picture == KTX2) return uri((const unsigned char *)"\xabKTX 20\xbb\r\n\x1a\n and more", 21);
     paint(picture, &image);
     FILE *stream = open_memstream(&png, &size);
-    assert_int_equal(image_write_png(stream, "picture", &image, &how, &error), WEFT_OK);
+    const WeftResult written = picture == BASIS ? image_write_ktx2(stream, "picture", &image, &how, &error)
+                                                : image_write_png(stream, "picture", &image, &how, &error);
+    assert_int_equal(written, WEFT_OK);
     fclose(stream);
     assert_true(size + 16 < sizeof bytes);
     memcpy(bytes, png, size);
@@ -216,6 +218,9 @@ static const Case cases[] = {
     {WEFT_FINDING_TEXCOORD_MISSING, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0,'texCoord':1}", NULL, NULL, NULL,
      COLORS},
     {WEFT_FINDING_IMAGE_REPAIRED, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", NULL, NULL, NULL, DAMAGED},
+    {WEFT_FINDING_IMAGE_BASIS, TWO_SIDED "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorTexture':{'index':0}}",
+     "'KHR_texture_basisu'", NULL, NULL, BASIS},
+    {-1, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", "'KHR_texture_basisu'", NULL, NULL, BASIS},
     {WEFT_FINDING_IMAGE_UNREAD, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", NULL, NULL, NULL, KTX2},
     {WEFT_FINDING_SHEEN_BLACK, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenRoughnessFactor':0.8}}",
      NULL, NULL, NULL, COLORS},
@@ -303,9 +308,10 @@ static const char *nodes_of(const Case *c) {
 static char *case_text(const Case *c) {
     char used[300] = "";
     if (!c->rest) snprintf(used, sizeof used, "'extensionsUsed':[%s],", c->used ? c->used : USED);
-    return json("{'asset':{'version':'2.0'},%s%s" SQUARE_DATA ",'images':[{'uri':'%s'}],'textures':[{'source':0}],"
+    return json("{'asset':{'version':'2.0'},%s%s" SQUARE_DATA ",'images':[{'uri':'%s'}],'textures':[{%s}],"
                 "'materials':[{%s}],'meshes':[{'primitives':[{%s}]}],'nodes':[%s]}\n",
-                used, c->rest ? c->rest : "", SQUARE_URI, picture_uri(c->picture), c->material,
+                used, c->rest ? c->rest : "", SQUARE_URI, picture_uri(c->picture),
+                c->picture == BASIS ? "'extensions':{'KHR_texture_basisu':{'source':0}}" : "'source':0", c->material,
                 c->primitive ? c->primitive : ALL, nodes_of(c));
 }
 
@@ -380,6 +386,60 @@ static void asset_of_each_fault_has_its_finding_alone(void **state) {
         weft_doctor_close(doctor);
         free(text);
     }
+}
+
+/* Each rule of KHR_texture_basisu, by a number of a good file that is changed. */
+static void pictures_beyond_basis_universal_are_named(void **state) {
+    (void)state;
+    enum { DESCRIPTOR = 1000 }; /* stands for the place of the descriptor, which the header has */
+    static const struct {
+        size_t at;
+        unsigned char value;
+        const char *words;
+    } changes[] = {{DESCRIPTOR + 12, 1, "neither ETC1S nor UASTC"},
+                   {20, 3, "3 x 4, are no multiples of 4"},
+                   {32, 2, "not of type 2D"},
+                   {36, 6, "not of type 2D"},
+                   {DESCRIPTOR + 15, 1, "multiplied by alpha"},
+                   {DESCRIPTOR + 14, 2, "that of sRGB, but it is used as occlusion"},
+                   {0, 0, "KTXorientation is not rd"},
+                   {4, 0, NULL}};
+    unsigned char good[4096];
+    char *bytes = NULL;
+    size_t size = 0;
+    WeftImage image;
+    WeftError error;
+    const WeftImageWriting how = {.data = 1};
+    paint(COLORS, &image);
+    FILE *stream = open_memstream(&bytes, &size);
+    assert_int_equal(image_write_ktx2(stream, "picture", &image, &how, &error), WEFT_OK);
+    fclose(stream);
+    assert_true(size < sizeof good);
+    for (size_t k = 0; k < sizeof changes / sizeof *changes; k++) {
+        memcpy(good, bytes, size);
+        size_t at = changes[k].at;
+        if (at >= DESCRIPTOR) at = at - DESCRIPTOR + (size_t)good[48] + 256 * (size_t)good[49];
+        if (changes[k].words && at) good[at] = changes[k].value;
+        for (size_t j = 0; !at && j + 17 < size; j++)
+            if (memcmp(good + j, "KTXorientation", 15) == 0) good[j + 16] = 'u';
+        char *text =
+            json("{'asset':{'version':'2.0'},'extensionsUsed':['KHR_texture_basisu']," SQUARE_DATA
+                 ",'images':[{'uri':'%s'}],'textures':[{'extensions':{'KHR_texture_basisu':{'source':0}}}],"
+                 "'materials':[{" TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}}],'meshes':[{'primitives':[{" ALL
+                 "}]}],'nodes':[{'mesh':0}]}",
+                 SQUARE_URI, uri(good, size));
+        WeftDoctor *doctor = examine(text);
+        const char *words = NULL;
+        for (int f = 0; f < weft_doctor_count(doctor); f++)
+            if (weft_doctor_finding(doctor, f)->kind == WEFT_FINDING_IMAGE_BASIS)
+                words = weft_doctor_finding(doctor, f)->words;
+        if ((words != NULL) != (changes[k].words != NULL) || (words && !strstr(words, changes[k].words)))
+            fail_msg("%zu: \"%s\", not \"%s\"", k, words ? words : "", changes[k].words ? changes[k].words : "");
+        weft_doctor_close(doctor);
+        free(text);
+    }
+    free(bytes);
+    weft_image_free(&image);
 }
 
 static void every_finding_has_a_case(void **state) {
@@ -864,6 +924,7 @@ static void warnings_of_a_read_are_findings(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(asset_of_each_fault_has_its_finding_alone),
+        cmocka_unit_test(pictures_beyond_basis_universal_are_named),
         cmocka_unit_test(every_finding_has_a_case),
         cmocka_unit_test(alpha_of_a_colour_is_no_second_space),
         cmocka_unit_test(paint_and_chrome_in_one_map_are_not_a_dark_metal),

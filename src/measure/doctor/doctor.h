@@ -132,6 +132,9 @@ bool cloth_shows(const Cloth *cloth); /* true if there is a sheen that is not bl
 void check_extensions(WeftDoctor *doctor);
 /* Finds images that are read in two colour spaces, or marked as linear. */
 void check_spaces(WeftDoctor *doctor);
+/* Finds what KHR_texture_basisu does not allow in an image: file, its bytes; color, data: the textures by which it is decoded
+ * from sRGB and not, or NULL. */
+void check_basis(WeftDoctor *doctor, int image, Span file, const char *color, const char *data);
 /* Finds a sheen and a transmission in one asset. */
 void check_glass(WeftDoctor *doctor);
 /* Finds a scene without a surface. */

@@ -90,9 +90,11 @@ static void check_space(WeftDoctor *doctor, int image, FirstUse use) {
                      use.color, use.data);
         doctor_advise(doctor, "give each use an image of its own");
     }
-    if (!use.color) return;
+    if (!use.color && !use.data) return;
     unsigned char *owned;
-    const char *how = png_linear(image_bytes(doctor, image, &owned));
+    const Span file = image_bytes(doctor, image, &owned);
+    const char *how = use.color ? png_linear(file) : NULL;
+    check_basis(doctor, image, file, use.color, use.data);
     free(owned);
     if (!how) return;
     doctor_found(doctor, WEFT_FINDING_TEXTURE_SAYS_LINEAR, place, doctor_engines(), (double)NAN, NULL,
