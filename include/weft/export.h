@@ -9,7 +9,8 @@
  * The text is that of the catalogue, so it computes what this library computes. Its first lines describe the
  * model, its conventions, its licence and how to call it. Directions are in the shading frame of weft/lobe.h.
  *
- *   of a lobe       ID_eval (colour times f), ID_pdf, ID_sample, ID_default, ID_rough; ID_albedo on request
+ *   of a lobe       ID_eval (colour times f), ID_pdf, ID_sample, ID_default, ID_rough; on request ID_albedo, and
+ *                   ID_ambient, ID_ambient_axis, ID_ambient_kappa for the light of an environment map
  *   of a material   NAME_surface (its numbers), NAME_shade (f times the cosine)
  *
  * Textures, normal maps, emission, environments and area lights are left to the engine. */
@@ -74,6 +75,7 @@ typedef struct WeftExportDesc {
     int fold_pi;                  /* not 0: f is multiplied by pi, for lights whose unit contains the 1/pi */
     const char *prefix;           /* of every name: a C identifier, 24 characters at most; NULL: weft_, in C weftx_ */
     const char *call;             /* the command that made the text, for its first lines; may be NULL */
+    int ambient;                  /* not 0: with ID_ambient of a lobe, the light of a map, and ID_albedo */
 } WeftExportDesc;
 
 /* The most models and tables of a text, and the size of a name with its zero. */
@@ -95,7 +97,7 @@ typedef struct WeftExport {
 } WeftExport;
 
 /* Makes a text. Fails with WEFT_MESSAGE_EXPORT_LOBE (a lobe that is a random walk), _CHECK_NAME (no such
- * profile), _DESC or _MEMORY; *out is then zero. A table of E takes up to seconds. */
+ * profile), _DESC (also of a lobe that `ambient` is not for) or _MEMORY; *out is then zero. A table of E takes up to seconds. */
 WEFT_API WeftResult weft_export(const WeftExportDesc *desc, WeftExport *out, WeftError *error);
 
 /* Makes one text of `count` models, 1 to WEFT_EXPORT_MODELS_MAX, of one target, lut, prefix and fold_pi. Code that

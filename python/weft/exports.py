@@ -55,12 +55,14 @@ def export(
     fold_pi: bool = False,
     prefix: Optional[str] = None,
     call_line: Optional[str] = None,
+    ambient: bool = False,
 ) -> Export:
     """Makes the text of a model, or of up to 16 together: lobes, engine profiles and workflows by name, materials.
 
     target: "glsl", "essl", "hlsl", "c", "shadertoy" or "wgsl"; lut: the form of tables, "c", "png16", "exr", "dds",
     "npy"; right: for a Shadertoy, a second lobe; name: of a material in the text; albedo: with E of a lobe; fold_pi: f
-    times pi; prefix: of every name; call_line: the command that made it, for the first lines."""
+    times pi; prefix: of every name; call_line: the command that made it, for the first lines; ambient: with what lights a
+    lobe by an environment map."""
     models = list(model) if isinstance(model, (list, tuple)) else [model]
     if not 1 <= len(models) <= _abi.CONSTANTS["WEFT_EXPORT_MODELS_MAX"]:
         raise ValueError(f"model: are {len(models)}, and must be 1 to {_abi.CONSTANTS['WEFT_EXPORT_MODELS_MAX']}")
@@ -72,6 +74,7 @@ def export(
         fold_pi=int(bool(fold_pi)),
         prefix=prefix,
         call=call_line,
+        ambient=int(bool(ambient)),
     )
     keep: list[Any] = []
     descs = (_abi.WeftExportDesc * len(models))(*(_desc(m, keep, right, members) for m in models))

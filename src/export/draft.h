@@ -63,6 +63,10 @@ bool draft_lobe_rough(const WeftLobe *lobe);
 /* Returns the name of a lobe's record. */
 const char *draft_lobe_record(int lobe);
 
+/* Adds the functions by which a map lights a lobe; the text fails where that takes more than weights of look-ups.
+ * The text calls ID_albedo. */
+void draft_ambient(Draft *draft, const WeftLobe *lobe);
+
 /* Adds the functions of a profile, a workflow or a material. */
 WeftResult draft_material(Draft *draft, WeftError *error);
 

@@ -56,6 +56,8 @@ static WeftResult check(const WeftExportDesc *desc, WeftError *error) {
         return fail(error, WEFT_MESSAGE_DESC, model, "a prefix that begins no name");
     if (desc->right && (!desc->lobe || desc->target != WEFT_EXPORT_SHADERTOY))
         return fail(error, WEFT_MESSAGE_DESC, model, "a second lobe is for shadertoy, beside a first");
+    if (desc->ambient && (!desc->lobe || desc->target == WEFT_EXPORT_SHADERTOY))
+        return fail(error, WEFT_MESSAGE_DESC, model, "the light of a map is for a lobe, and not for shadertoy");
     WeftResult result = desc->lobe ? check_lobe(desc->lobe, error) : WEFT_OK;
     return result == WEFT_OK && desc->right ? check_lobe(desc->right, error) : result;
 }

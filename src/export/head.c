@@ -87,7 +87,17 @@ static void put_call(const Draft *draft, Buffer *out) {
              c ? spell_name(&draft->speller, ITEM_RECORD, "Dir", record) : word(draft, type),
              function(draft, "sample", a));
     put_line(out, " *   %s pdf = %s(m, wo, drawn);", word(draft, "float"), function(draft, "pdf", a));
-    if (desc->albedo) put_line(out, " *   %s e = %s(m, wo.z);", word(draft, "float"), function(draft, "albedo", a));
+    if (desc->albedo || desc->ambient)
+        put_line(out, " *   %s e = %s(m, wo.z);", word(draft, "float"), function(draft, "albedo", a));
+    if (!desc->ambient) return;
+    put_line(out, " * An environment map: look k, 0 to 6, is its mean about %s(m, wo, k),",
+             function(draft, "ambient_axis", a));
+    put_line(out, " * weighted by exp(kappa (mu - 1)) with kappa = %s(m, wo, k), or by",
+             function(draft, "ambient_kappa", a));
+    put_line(out, " * max(mu, 0) where kappa is 0; mu: the cosine to the axis.");
+    put_line(out, " *   %s lit = %s(m, color, wo, look0, ... look6);",
+             c ? spell_name(&draft->speller, ITEM_RECORD, "Rgb", record) : word(draft, type),
+             function(draft, "ambient", b));
 }
 
 static void put_unreal(const Draft *draft, const char *name, Buffer *out) {

@@ -170,5 +170,6 @@ void draft_lobe(Draft *draft, const WeftLobe *lobe, int which) {
     put_sample(text, own);
     draft_root(draft, "%s_pdf", own->prefix);
     draft_root(draft, "%s_sample", own->prefix);
-    if (draft->desc->albedo) put_albedo(draft, lobe, own);
+    if (draft->desc->albedo || draft->desc->ambient) put_albedo(draft, lobe, own);
+    if (draft->desc->ambient) draft_ambient(draft, lobe);
 }

@@ -375,6 +375,8 @@ static void export_options_without_sense_are_refused(void **state) {
         {LIST("export", "ggx:beta=1", "--target", "c", "-o", "x"), 2, "is not a parameter"},
         {LIST("export", "khronos:alpha=1", "--target", "c", "-o", "x"), 2, "is not a parameter"},
         {LIST("export", "khronos", "--albedo", "--target", "c", "-o", "x"), 2, "--albedo"},
+        {LIST("export", "khronos", "--ambient", "--target", "c", "-o", "x"), 2, "--ambient: is for a lobe"},
+        {LIST("export", "ggx", "--ambient", "--target", "c", "-o", "x"), 2, "ggx: "},
         {LIST("export", "ggx", "silk", "lambert", "--target", "shadertoy", "-o", "x"), 2, "two lobes"},
         {LIST("export", "khronos", "silk", "--target", "shadertoy", "-o", "x"), 2, "two lobes"},
         {LIST("export", "ggx", "--prefix", "9a", "--target", "c", "-o", "x"), 2, "prefix"},

@@ -45,6 +45,7 @@ static int read_model(const char *typed, Model *model, WeftExportDesc *desc) {
     }
     if (desc->albedo && !desc->lobe)
         return report(WEFT_USAGE, "--albedo: is for a lobe; a material has the tables that it needs");
+    if (desc->ambient && !desc->lobe) return report(WEFT_USAGE, "--ambient: is for a lobe");
     return 0;
 }
 
@@ -92,6 +93,7 @@ static int export_read(const Options *options, Export *self) {
     return read_models(self, &(WeftExportDesc){.target = (WeftExportTarget)target,
                                                .lut = (WeftExportLut)lut,
                                                .albedo = option_given(options, "--albedo"),
+                                               .ambient = option_given(options, "--ambient"),
                                                .fold_pi = pi,
                                                .prefix = option_text(options, "--prefix")});
 }
@@ -157,6 +159,7 @@ static const Option export_options[] = {
                 "explicit: f has its 1/pi and lights are irradiances; folded: f times pi, for lights whose "
                 "unit has the 1/pi inside"),
     OPTION_SWITCH("--albedo", "of a lobe its directional albedo E too, from a table"),
+    OPTION_SWITCH("--ambient", "of a lobe how an environment map lights it too, by look-ups and a table"),
     OPTION_TEXT("--prefix", "NAME", NULL,
                 "what every name begins with; another one where two texts meet [weft_; in C weftx_]"),
     OPTION_HEADING("Reports"),
