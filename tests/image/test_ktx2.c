@@ -4,6 +4,7 @@
  * more. */
 #include "image/texel_numbers.h"
 
+#include <zlib.h>
 #include <zstd.h>
 
 #include "image/ktx2/ktx2.h"
@@ -35,7 +36,14 @@ static void put_descriptor(Bytes *bytes, const Plan *plan) {
     }
 }
 
-/* Returns a file of these levels, the largest first; packed by Zstandard if the plan says so. */
+/* Packs a level by zlib; returns its size. */
+static size_t deflated(unsigned char *to, size_t most, const Bytes *level) {
+    uLongf size = most;
+    assert_int_equal(compress2(to, &size, level->data, level->size, 9), Z_OK);
+    return size;
+}
+
+/* Returns a file of these levels, the largest first; packed by Zstandard or zlib if the plan says so. */
 static Bytes file_of(const Plan *plan, const Bytes *levels) {
     static Bytes packed[4];
     const uint32_t count = plan->levels ? plan->levels : 1, key = plan->orientation ? 20 : 0;
@@ -57,6 +65,7 @@ static Bytes file_of(const Plan *plan, const Bytes *levels) {
         packed[k] = levels[k];
         if (plan->scheme == 2)
             packed[k].size = ZSTD_compress(packed[k].data, sizeof packed[k].data, levels[k].data, levels[k].size, 1);
+        if (plan->scheme == 3) packed[k].size = deflated(packed[k].data, sizeof packed[k].data, &levels[k]);
         put_long(&bytes, at, 8);
         put_long(&bytes, packed[k].size, 8);
         put_long(&bytes, levels[k].size, 8);
@@ -98,7 +107,7 @@ static void numbers_of_every_format_are_read(void **state) {
         {109, 4, 4, true, false},
     };
     for (size_t f = 0; f < sizeof formats / sizeof *formats; f++)
-        for (uint32_t scheme = 0; scheme <= 2; scheme += 2) {
+        for (uint32_t scheme = 0; scheme <= 3; scheme += scheme ? 1 : 2) {
             Bytes level = {.size = 0};
             const int stored = formats[f].channels, shown = stored == 2 ? 3 : stored; /* blue 0 beside red and green */
             put_numbers(&level, formats[f].size, formats[f].floats, 2 * stored);
@@ -174,7 +183,7 @@ static void levels_and_faces_are_found(void **state) {
     Bytes levels[2] = {{.size = 0}, {.size = 0}};
     for (int k = 0; k < 24; k++) put_byte(&levels[0], k);
     for (int k = 0; k < 6; k++) put_byte(&levels[1], 100 + k);
-    for (uint32_t scheme = 0; scheme <= 2; scheme += 2) {
+    for (uint32_t scheme = 0; scheme <= 3; scheme += scheme ? 1 : 2) {
         const Plan plan = {.format = 9, .width = 2, .height = 2, .faces = 6, .levels = 2, .scheme = scheme};
         const Bytes bytes = file_of(&plan, levels);
         for (int face = 0; face < 6; face++) {
@@ -297,7 +306,7 @@ static const struct {
 static void uastc_of_every_mode_is_decoded(void **state) {
     (void)state;
     for (size_t m = 0; m < 19; m++)
-        for (uint32_t scheme = 0; scheme <= 2; scheme += 2) {
+        for (uint32_t scheme = 0; scheme <= 3; scheme += scheme ? 1 : 2) {
             const Bytes level = bytes_of(uastc_blocks[m].block), want = bytes_of(uastc_blocks[m].texels);
             const Plan plan = {.model = 166, .first = 3, .width = 4, .height = 4, .scheme = scheme};
             const Bytes bytes = file_of(&plan, &level);
@@ -425,7 +434,7 @@ static void unread_formats_are_named(void **state) {
     } cases[] = {
         {&plain, 12, 131, 4, WEFT_MESSAGE_IMAGE_UNSUPPORTED, "VkFormat 131 (BC)"},
         {&plain, 12, 157, 4, WEFT_MESSAGE_IMAGE_UNSUPPORTED, "VkFormat 157 (ASTC)"},
-        {&plain, 44, 3, 4, WEFT_MESSAGE_IMAGE_UNSUPPORTED, "supercompression 3"},
+        {&plain, 44, 4, 4, WEFT_MESSAGE_IMAGE_UNSUPPORTED, "supercompression 4"},
         {&plain, 44, 1, 4, WEFT_MESSAGE_IMAGE_DAMAGED, "BasisLZ without ETC1S"},
         {&plain, 24, 0, 4, WEFT_MESSAGE_IMAGE_UNSUPPORTED, "one dimension"},
         {&plain, 20, 70000, 4, WEFT_MESSAGE_IMAGE_SIZE, "70000 x 4"},
@@ -451,26 +460,28 @@ static void unread_formats_are_named(void **state) {
     }
 }
 
-/* A level that unpacks to more or to less than it says, or is no frame. */
-static void zstandard_that_lies_is_refused(void **state) {
+/* A level that unpacks to more or to less than it says, or is not packed. */
+static void packed_level_that_lies_is_refused(void **state) {
     (void)state;
-    Bytes level = {.size = 0};
-    for (int k = 0; k < 64; k++) put_byte(&level, 7);
-    const Plan plan = {.format = 37, .width = 4, .height = 4, .scheme = 2};
-    Bytes bytes = file_of(&plan, &level);
-    Bytes other = changed(&bytes, 80 + 16, 32, 8);
-    assert_refused(&other, WEFT_MESSAGE_IMAGE_SIZE, "less than its 64 bytes");
-    other = changed(&bytes, 80 + 8, 6, 8);
-    assert_refused(&other, WEFT_MESSAGE_IMAGE_DAMAGED, "unpacks to");
-    other = changed(&bytes, 104 + 44, 0, 4);
-    assert_refused(&other, WEFT_MESSAGE_IMAGE_DAMAGED, "Zstandard");
-    level.size = 32; /* of the 64 that are claimed */
-    bytes = file_of(&plan, &level);
-    other = changed(&bytes, 80 + 16, 64, 8);
-    assert_refused(&other, WEFT_MESSAGE_IMAGE_DAMAGED, "unpacks to 32 bytes of 64");
-    other = changed(&other, 20, 30000, 4);
-    other = changed(&other, 24, 30000, 4);
-    refuse(&other, WEFT_MESSAGE_IMAGE_SIZE);
+    for (uint32_t scheme = 2; scheme <= 3; scheme++) {
+        Bytes level = {.size = 0};
+        for (int k = 0; k < 64; k++) put_byte(&level, 7);
+        const Plan plan = {.format = 37, .width = 4, .height = 4, .scheme = scheme};
+        Bytes bytes = file_of(&plan, &level);
+        Bytes other = changed(&bytes, 80 + 16, 32, 8);
+        assert_refused(&other, WEFT_MESSAGE_IMAGE_SIZE, "less than its 64 bytes");
+        other = changed(&bytes, 80 + 8, scheme == 2 ? 6 : 3, 8);
+        assert_refused(&other, WEFT_MESSAGE_IMAGE_DAMAGED, "unpacks to");
+        other = changed(&bytes, 104 + 44, 0, 4);
+        assert_refused(&other, WEFT_MESSAGE_IMAGE_DAMAGED, scheme == 2 ? "Zstandard: " : "zlib: ");
+        level.size = 32; /* of the 64 that are claimed */
+        bytes = file_of(&plan, &level);
+        other = changed(&bytes, 80 + 16, 64, 8);
+        assert_refused(&other, WEFT_MESSAGE_IMAGE_DAMAGED, "unpacks to 32 bytes of 64");
+        other = changed(&other, 20, 30000, 4);
+        other = changed(&other, 24, 30000, 4);
+        refuse(&other, WEFT_MESSAGE_IMAGE_SIZE);
+    }
 }
 
 /* Kinds of pictures that are written. */
@@ -612,7 +623,7 @@ int main(void) {
         cmocka_unit_test(etc1s_is_decoded),
         cmocka_unit_test(damaged_byte_is_read_or_refused),
         cmocka_unit_test(unread_formats_are_named),
-        cmocka_unit_test(zstandard_that_lies_is_refused),
+        cmocka_unit_test(packed_level_that_lies_is_refused),
         cmocka_unit_test(written_picture_is_near),
         cmocka_unit_test(written_levels_are_means_or_given),
         cmocka_unit_test(hints_for_etc_are_near),

@@ -398,6 +398,7 @@ static void pictures_beyond_basis_universal_are_named(void **state) {
         const char *words;
     } changes[] = {{DESCRIPTOR + 12, 1, "neither ETC1S nor UASTC"},
                    {20, 3, "3 x 4, are no multiples of 4"},
+                   {44, 3, "packed neither by BasisLZ nor by Zstandard"},
                    {32, 2, "not of type 2D"},
                    {36, 6, "not of type 2D"},
                    {DESCRIPTOR + 15, 1, "multiplied by alpha"},

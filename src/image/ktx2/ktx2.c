@@ -173,13 +173,13 @@ static WeftResult shape_read(Ktx2 *file, WeftError *error) {
         return damaged(source, "its level index is cut", error);
     if (file->layers > IMAGE_SIDE_MAX || file->depth > IMAGE_SIDE_MAX)
         return damaged(source, "it has more layers or slices than there are", error);
-    if (file->scheme > 2)
+    if (file->scheme >= KTX2_SCHEMES)
         return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, source->name,
                     "KTX 2: supercompression %u; repack it with Zstandard or without", (unsigned)file->scheme);
     return WEFT_OK;
 }
 
-/* Refuses a picture that so few bytes cannot hold. Zstandard repeats a byte 131072 times in 4; what BasisLZ packs best
+/* Refuses a picture that so few bytes cannot hold. Zstandard repeats a byte 131072 times in 4, Deflate 258 times in 2 bits; what BasisLZ packs best
  * is counted as 65536 texels a byte, so that a small file cannot ask for much. */
 static WeftResult size_check(const Ktx2 *file, WeftError *error) {
     static const int64_t bytes[] = {1, 2, 4, 4, 4, 4, 1, 1}, fewest[] = {1, 2, 2, 4, 4, 4, 1, 1};
@@ -191,8 +191,9 @@ static WeftResult size_check(const Ktx2 *file, WeftError *error) {
     int64_t least = texels * (packed ? 1 : file->stored) * fewest[file->coding];
     if (file->coding == KTX2_UASTC) least = (int64_t)((file->width + 3) / 4) * ((file->height + 3) / 4) * 16;
     least *= file->faces;
-    if (file->scheme == 2) least /= 32768;
-    if (file->scheme == 1) least = texels / 65536;
+    if (file->scheme == KTX2_ZSTANDARD) least /= 32768;
+    if (file->scheme == KTX2_ZLIB) least /= 1032;
+    if (file->scheme == KTX2_BASISLZ) least = texels / 65536;
     return image_reachable(file->source, HEADER + LEVEL * (int64_t)file->levels + least, error);
 }
 

@@ -21,6 +21,9 @@ typedef enum Ktx2Coding {
     KTX2_ETC1S
 } Ktx2Coding;
 
+/* The supercompression of a file: BasisLZ is of ETC1S alone. */
+typedef enum Ktx2Scheme { KTX2_NONE, KTX2_BASISLZ, KTX2_ZSTANDARD, KTX2_ZLIB, KTX2_SCHEMES } Ktx2Scheme;
+
 /* A channel of a picture is read from a channel that is decoded, or from nothing. */
 enum { KTX2_NOTHING = -1 };
 
@@ -28,7 +31,7 @@ typedef struct Ktx2 {
     const ImageSource *source;
     uint32_t width, height, depth;  /* of level 0; depth is 1 where the file has 0 */
     uint32_t layers, faces, levels; /* at least 1 */
-    uint32_t scheme;                /* supercompression: 0 none, 1 BasisLZ, 2 Zstandard */
+    uint32_t scheme;                /* supercompression, a Ktx2Scheme */
     Ktx2Coding coding;
     int stored;       /* channels that are decoded: 4 of blocks */
     int channels;     /* of a picture */

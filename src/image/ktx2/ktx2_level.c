@@ -1,7 +1,10 @@
 /* ktx2_level.c - the bytes of a level, and pictures of those that are numbers or UASTC */
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
+#define ZLIB_CONST /* zlib does not write to its input */
+#include <zlib.h>
 #include <zstd.h>
 
 #include "base/fail.h"
@@ -11,32 +14,68 @@
 #include "image/ktx2/ktx2.h"
 #include "image/ktx2/uastc.h"
 
-/* Unpacks the first wanted bytes of a frame, and no more than those. */
-static WeftResult unpack(const Ktx2 *file, const unsigned char *data, size_t size, size_t wanted, Ktx2Bytes *out,
-                         WeftError *error) {
-    const char *name = file->source->name;
+/* The first bytes of a level while they are unpacked, and no more than those. */
+typedef struct Unpacking {
+    const unsigned char *data;
+    size_t size; /* of data */
+    unsigned char *to;
+    size_t wanted, got;
+    const char *why; /* what is wrong with the data; NULL: nothing, but there may be too few */
+} Unpacking;
+
+/* Unpacks a frame of Zstandard. Returns false if memory is short. */
+static bool zstd_unpack(Unpacking *u) {
     ZSTD_DStream *stream = ZSTD_createDStream();
-    out->data = out->owned = alloc_array(wanted, 1);
-    ZSTD_inBuffer in = {.src = data, .size = size, .pos = 0};
-    ZSTD_outBuffer to = {.dst = out->owned, .size = wanted, .pos = 0};
-    WeftResult result = stream && out->owned ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    ZSTD_inBuffer in = {.src = u->data, .size = u->size, .pos = 0};
+    ZSTD_outBuffer out = {.dst = u->to, .size = u->wanted, .pos = 0};
     size_t left = 1;
-    while (result == WEFT_OK && left && to.pos < wanted) {
-        const size_t before = in.pos + to.pos;
-        left = ZSTD_decompressStream(stream, &to, &in);
+    while (stream && !u->why && left && out.pos < u->wanted) {
+        const size_t before = in.pos + out.pos;
+        left = ZSTD_decompressStream(stream, &out, &in);
         if (ZSTD_isError(left))
-            result = fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, name, "KTX 2: Zstandard: %s", ZSTD_getErrorName(left));
-        else if (in.pos + to.pos == before)
+            u->why = ZSTD_getErrorName(left);
+        else if (in.pos + out.pos == before)
             left = 0; /* the frame wants more than there is */
     }
     ZSTD_freeDStream(stream);
-    if (result == WEFT_OK && to.pos < wanted)
+    u->got = out.pos;
+    return stream != NULL;
+}
+
+/* Unpacks a stream of zlib. Returns false if memory is short. */
+static bool zlib_unpack(Unpacking *u) {
+    const size_t most = UINT_MAX; /* of a call: what lies behind it is not read */
+    z_stream stream = {.next_in = u->data,
+                       .avail_in = (uInt)(u->size < most ? u->size : most),
+                       .next_out = u->to,
+                       .avail_out = (uInt)(u->wanted < most ? u->wanted : most)};
+    if (inflateInit(&stream) != Z_OK) return false;
+    const int end = inflate(&stream, Z_SYNC_FLUSH);
+    u->got = stream.total_out;
+    if (end != Z_OK && end != Z_STREAM_END && end != Z_BUF_ERROR) u->why = stream.msg ? stream.msg : "damaged data";
+    inflateEnd(&stream);
+    return end != Z_MEM_ERROR;
+}
+
+/* Unpacks the first wanted bytes of a level. */
+static WeftResult unpack(const Ktx2 *file, const unsigned char *data, size_t size, size_t wanted, Ktx2Bytes *out,
+                         WeftError *error) {
+    const char *name = file->source->name;
+    const bool zlib = file->scheme == KTX2_ZLIB;
+    Unpacking u = {.data = data, .size = size, .to = alloc_array(wanted, 1), .wanted = wanted};
+    WeftResult result = WEFT_OK;
+    if (!u.to || !(zlib ? zlib_unpack(&u) : zstd_unpack(&u)))
+        result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    else if (u.why)
+        result = fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, name, "KTX 2: %s: %s", zlib ? "zlib" : "Zstandard", u.why);
+    else if (u.got < wanted)
         result =
-            fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, name, "KTX 2: a level unpacks to %zu bytes of %zu", to.pos, wanted);
+            fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, name, "KTX 2: a level unpacks to %zu bytes of %zu", u.got, wanted);
     if (result != WEFT_OK) {
-        free(out->owned);
-        *out = (Ktx2Bytes){0};
+        free(u.to);
+        u.to = NULL;
     }
+    *out = (Ktx2Bytes){.data = u.to, .size = u.to ? wanted : 0, .owned = u.to};
     return result;
 }
 

@@ -16,6 +16,7 @@ enum {
     DEPTH = 28,
     LAYERS = 32,
     FACES = 36,
+    SCHEME = 44,
     DESCRIPTOR = 48,
     KEYS = 56,
     KEYS_SIZE = 60,
@@ -24,7 +25,14 @@ enum {
 
 /* Numbers of the descriptor, behind its size: colour model, primaries, transfer function, flags. */
 enum { MODEL = 12, TRANSFER = 14, FLAGS = 15, BLOCK = 16 };
-enum { MODEL_ETC1S = 163, MODEL_UASTC = 166, TRANSFER_LINEAR = 1, TRANSFER_SRGB = 2, PREMULTIPLIED = 1 };
+enum {
+    MODEL_ETC1S = 163,
+    MODEL_UASTC = 166,
+    TRANSFER_LINEAR = 1,
+    TRANSFER_SRGB = 2,
+    PREMULTIPLIED = 1,
+    SCHEME_ZSTANDARD = 2
+};
 
 static size_t number_at(Span file, size_t at) { return (size_t)little_endian(file.data + at, 4); }
 
@@ -54,6 +62,8 @@ static bool basis_fault(Span file, const char *color, const char *data, char wor
     words[0] = 0;
     if (model != MODEL_ETC1S && model != MODEL_UASTC)
         snprintf(words, 192, "its texels are neither ETC1S nor UASTC");
+    else if (number_at(file, SCHEME) > SCHEME_ZSTANDARD)
+        snprintf(words, 192, "it is packed neither by BasisLZ nor by Zstandard");
     else if (width % 4 || height % 4)
         snprintf(words, 192, "its sides, %zu x %zu, are no multiples of 4", width, height);
     else if (number_at(file, DEPTH) || number_at(file, LAYERS) || number_at(file, FACES) != 1)
