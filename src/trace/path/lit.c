@@ -1,6 +1,7 @@
 /* lit.c - light that the vertices of paths emit, or receive and reflect */
 #include "trace/path/slot_light.h"
 
+#include "base/random.h"
 #include "shading/dialect/loop.h"
 #include "shading/dialect/rgb.h"
 
@@ -105,7 +106,8 @@ FN void aim_each(Chunk *restrict chunk, LightGroup group, bool transmits, int n)
         chunk->shadow_rays.direction[1][k] = moved ? ty * r : y;
         chunk->shadow_rays.direction[2][k] = moved ? tz * r : z;
         chunk->shadow_rays.distance[k] = near ? length * (1.0f - 1e-4f) : LIGHT_FAR;
-        chunk->shadow_rays.key[k] = chunk->key[j];
+        chunk->shadow_rays.key[k] =
+            hash32(chunk->key[j] ^ 0x5bd1e995u); /* a veil that let the eye through may hide light */
     }
 }
 
