@@ -29,6 +29,12 @@ const float FAR = 1e30;
 uint pixel_key() { return sampler_key(uint(gl_FragCoord.x), uint(gl_FragCoord.y), 0u); }
 uint frame_index() { return sampler_index(uint(ray_count.y)); }
 
+/* Returns a number that decides partial opacity. Surfaces behind one another have each its own, by their depth: by one
+ * number for all, what lies behind a surface of opacity .5 would show only where its own opacity is higher. */
+float layer_random() {
+    return point_fraction(point_hash_two(pixel_key() ^ frame_index(), floatBitsToUint(gl_FragCoord.z)));
+}
+
 /* The point that is shaded. */
 struct Place {
     vec3 lifted;         /* on the smooth surface that the normals at the corners describe */
@@ -353,7 +359,6 @@ void main() {
         sum += finite ? light : vec3(0.0);
     }
 #endif
-    /* a random number decides partial opacity */
-    if (opacity < 1.0 && point_fraction(point_hash_two(pixel_key() ^ frame_index(), 7u)) >= opacity) discard;
+    if (opacity < 1.0 && layer_random() >= opacity) discard;
     fragment = vec4(min(sum, vec3(65000.0)), 1.0);
 }
