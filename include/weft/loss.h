@@ -1,4 +1,4 @@
-/* loss.h - what a written file does not show of the original */
+/* loss.h - parts of the original that a written file does not show */
 #ifndef WEFT_LOSS_H
 #define WEFT_LOSS_H
 
@@ -10,7 +10,7 @@ extern "C" {
 
 /* A thing of the original that a file does not show. Texts are UTF-8 and one line. */
 typedef struct WeftLoss {
-    int material;  /* its index in the original; -1: it is of no single material */
+    int material;  /* the index of the material in the original; -1: no single one */
     char name[64]; /* of the material, truncated; may be empty */
     char what[64]; /* the thing: an extension such as "KHR_materials_sheen", an input such as "dust", or words */
     char why[256]; /* why, or what is shown instead: a sentence without its end; may be empty */

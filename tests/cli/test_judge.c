@@ -295,6 +295,8 @@ static void bad_input_is_one_line(void **state) {
     assert_complaint(NULL, LIST("judge", "grid.gltf", "none.exr"), 3, "none.exr: cannot be opened");
     assert_complaint(NULL, LIST("judge", "none.gltf", "whole.exr"), 3, "none.gltf");
     assert_complaint(NULL, LIST("judge"), 2, "needs an ASSET");
+    assert_complaint(NULL, LIST("judge", "--write", "grid.gltf"), 4,
+                     "grid.gltf: the folder cannot be made: File exists");
     assert_complaint(NULL, LIST("judge", "grid.gltf", "--write", "sweeps"), 2, "--write: goes with neither");
     assert_complaint(NULL, LIST("judge", "grid.gltf", "--profile", "three,babylon"), 2,
                      "--profile: has several values");

@@ -73,6 +73,8 @@ static void impossible_weave_commands_are_errors_of_one_line(void **state) {
     assert_ends(LIST("weave", "plain", "--close", "0", "-o", "plain.png"), 2, "--close");
     assert_ends(LIST("weave", "plain", "--close", "6"), 2, "needs a name");
     assert_ends(LIST("weave", "plain", "--bake", "none/there"), 4, "none/there");
+    file_make("taken", "", 0);
+    assert_ends(LIST("weave", "plain", "--bake", "taken"), 4, "taken: cannot be written: File exists");
     assert_ends(LIST("weave", "plain", "--sett", "a,b"), 2, "threads per centimetre");
     assert_ends(LIST("weave", "twill.wif", "-o", "twill.wif"), 2, "");
     wif_make("float.wif", "[WIF]\nVersion=1.1\n[THREADING]\n1=1\n[LIFTPLAN]\n1=1\n");

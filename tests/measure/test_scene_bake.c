@@ -156,7 +156,7 @@ static void threads_without_coordinates_are_said_to_be_lost(void **state) {
 /* Returns the mean of the base colour of a white plain weave baked to so many texels. */
 static double mean_of_maps(int pixels, const char *folder) {
     char path[64];
-    WeftImage map;
+    WeftImage map = {0};
     WeftError error;
     WeftScene *scene = scene_of("preset:woven-poplin");
     const WeftBaking baking = {.pixels = pixels, .profile = "three", .one_face = 1};

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/folder.h"
@@ -45,14 +44,13 @@ static int place_probe(const Delivery *delivery, const char *target, const char 
 }
 
 int folder_begin(Delivery *delivery) {
-    struct stat status;
     if (strlen(delivery->folder) > 3800) return report(WEFT_USAGE, "-o: the name is too long");
-    delivery->made = mkdir(delivery->folder, 0777) == 0;
-    if (!delivery->made && (errno != EEXIST || stat(delivery->folder, &status) != 0))
-        return unwritten(delivery->folder);
-    if (!delivery->made && !S_ISDIR(status.st_mode))
+    const int made = folder_create(delivery->folder);
+    if (made < 0 && errno == EEXIST)
         return report(WEFT_RESOURCES, "%.400s: is a file; -o names a folder, which is made if it does not exist",
                       delivery->folder);
+    if (made < 0) return unwritten(delivery->folder);
+    delivery->made = made == 1;
     const int result = each_file(delivery, place_probe);
     if (result != 0) return result;
     snprintf(delivery->temporary, sizeof delivery->temporary, "%.3900s/.weft-XXXXXX", delivery->folder);

@@ -18,24 +18,24 @@ WeftTarget file_target(const TargetFile *file) {
 const char *file_suffix(const TargetFile *file) { return file->target == TARGET_U3M ? ".u3ma" : ".glb"; }
 
 /* The warnings of a writer, which tell what is lost. */
-typedef struct Heard {
+typedef struct LossHearing {
     const char *path, *name; /* of the file that is written, with which warnings begin; of the material */
     WeftLosses *losses;
     bool short_of; /* memory */
-} Heard;
+} LossHearing;
 
 static void loss_note(void *user, WeftMessage message, const char *text) {
-    Heard *heard = user;
-    heard->short_of |= !weft_losses_hear(heard->losses, 0, heard->name, heard->path, message, text);
+    LossHearing *hearing = user;
+    hearing->short_of |= !weft_losses_hear(hearing->losses, 0, hearing->name, hearing->path, message, text);
 }
 
 /* Writes the material of a scene, and collects what the file lacks of it. */
 static int material_write(WeftScene *scene, const char *path, WeftLosses *losses) {
-    Heard heard = {.path = path, .name = weft_scene_material_name(scene, 0), .losses = losses};
-    const WeftLog log = {.fn = loss_note, .user = &heard};
+    LossHearing hearing = {.path = path, .name = weft_scene_material_name(scene, 0), .losses = losses};
+    const WeftLog log = {.fn = loss_note, .user = &hearing};
     WeftError error;
     const int result = told(weft_scene_save_u3m(scene, 0, path, NULL, &log, &error), &error);
-    if (result == 0 && heard.short_of)
+    if (result == 0 && hearing.short_of)
         return report(WEFT_RESOURCES, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_MEMORY));
     return result;
 }

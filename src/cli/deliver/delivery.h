@@ -40,7 +40,7 @@ typedef enum TextureFormat { TEXTURES_AUTO, TEXTURES_PNG, TEXTURES_KTX2 } Textur
 /* Stands for a U3M among targets, which are glTF otherwise. */
 enum { TARGET_U3M = -1 };
 
-/* What is delivered, with its cloth baked for some targets. */
+/* The original with its cloth baked, for one target or several. */
 typedef struct BakedSource {
     char name[64];        /* of what it was baked for */
     WeftBaked *materials; /* of each material of X, 0 where it is not woven; owned */

@@ -1,9 +1,10 @@
 /* judge_sweeps.c - `weft judge --write`: spheres of weave, nap and measured fabric, and what is expected of them */
+#define _XOPEN_SOURCE 700 /* folder.h */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "base/folder.h"
 #include "cli/console/output.h"
 #include "cli/console/report.h"
 #include "cli/judge/judge_verb.h"
@@ -120,7 +121,7 @@ static int group_make(SphereSweep *sweep, const char *name, const char *group) {
 
 int judge_sweeps(const Options *options, const char *folder) {
     SphereSweep sweep = {.options = options, .folder = folder, .name = "nap-1"};
-    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+    if (folder_create(folder) < 0)
         return report(WEFT_RESOURCES, "%.300s: the folder cannot be made: %s", folder, strerror(errno));
     int result = sweep_make(&sweep, NULL, 0);
     if (result == 0) result = group_make(&sweep, "weave", "woven");

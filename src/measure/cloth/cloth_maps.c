@@ -1,13 +1,14 @@
 /* cloth_maps.c - a cloth as tileable textures, for renderers without a model of threads */
+#define _XOPEN_SOURCE 700 /* folder.h */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/fail.h"
 #include "base/file.h"
+#include "base/folder.h"
 #include "base/thread.h"
 #include "image/pixel.h"
 #include "measure/cloth/map_levels.h"
@@ -290,7 +291,7 @@ typedef struct MapViewer {
 static WeftResult look_face(MapBake *b, const WeftMaterial *material, const WeftCloth *cloth, MapViewer *viewer,
                             WeftBaked *found, WeftError *error) {
     WeftResult result = map_fit_create(&b->grid, material, cloth, viewer->profile, b->holed, &b->fit, error);
-    if (result != WEFT_OK) return result;
+    if (result != WEFT_OK || !b->fit) return result;
     b->fit->item_progress = &viewer->item_progress;
     map_look_find(b->fit, &b->look, found);
     if (!progress_report(&viewer->item_progress, 1.0)) return WEFT_INTERRUPTED;
@@ -384,15 +385,15 @@ WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *clo
         return fail(error, WEFT_MESSAGE_DESC, "maps", "%d pixels; 16 to %d are possible", pixels, SIDE_MAX);
     if (!(metres > 1e-6 && metres < 1e6)) return fail(error, WEFT_MESSAGE_DESC, "maps", "%g metres", metres);
     if (strlen(folder) > FOLDER_MOST) return fail(error, WEFT_MESSAGE_FILE_WRITE, "maps", "the name is too long");
-    const bool made = mkdir(folder, 0777) == 0;
-    if (!made && errno != EEXIST) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
+    const int made = folder_create(folder);
+    if (made < 0) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
     WeftCloth *other = baking->one_face ? NULL : cloth_other_face(cloth);
     ClothBake bake = {
         .material = material, .cloths = {cloth, other}, .viewer = viewer, .folder = folder, .found = found};
     const WeftResult result =
         other || baking->one_face ? bake_watched(&bake, baking, error) : fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
     weft_cloth_free(other);
-    if (result != WEFT_OK && made) folder_remove(folder);
+    if (result != WEFT_OK && made == 1) folder_remove(folder);
     return result;
 }
 

@@ -31,14 +31,17 @@ static TextureLevels *levels_of(const Ktx2 *file, const WeftImage *picture, cons
     levels->images = alloc_array((size_t)count, sizeof *levels->images);
     levels->file = alloc_array(source->size, 1);
     levels->size = source->size;
-    const char *why = levels->images && levels->file ? NULL : weft_message_text(WEFT_MESSAGE_MEMORY);
-    for (; !why && levels->count < count; levels->count++)
+    const bool room = levels->images && levels->file;
+    const char *why = NULL;
+    for (; room && !why && levels->count < count; levels->count++)
         why = level_read(file, levels->count + 1, levels->count ? &levels->images[levels->count - 1] : picture,
                          &levels->images[levels->count]);
-    if (!why) memcpy(levels->file, source->data, source->size);
-    if (!why) return levels;
+    if (room && !why) {
+        memcpy(levels->file, source->data, source->size);
+        return levels;
+    }
     warn(log, WEFT_MESSAGE_IMAGE_REPAIRED, source->name, "mip level %d %s; means of the picture are drawn in its place",
-         levels->count, why);
+         levels->count, room ? why : weft_message_text(WEFT_MESSAGE_MEMORY));
     levels_free(levels);
     return NULL;
 }

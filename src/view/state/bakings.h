@@ -5,7 +5,7 @@
 #include "view/state/copies.h"
 
 typedef struct BakingsState {
-    SceneCopy copy;        /* that the renderer saves first */
+    SceneCopy copy;        /* of the scene, which the renderer saves first */
     char path[STATE_PATH]; /* the file to write */
     Baking *baking;        /* NULL: none */
 } BakingsState;

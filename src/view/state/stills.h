@@ -5,7 +5,7 @@
 #include "view/state/copies.h"
 
 typedef struct StillsState {
-    SceneCopy copy; /* that the renderer saves first */
+    SceneCopy copy; /* of the scene, which the renderer saves first */
     StillDesc due;  /* what is made from the copy */
     Still *still;   /* NULL: none */
     double share;   /* of its samples, 0 to 1 */
