@@ -300,7 +300,7 @@ static void measure_moving(const char *name, WeftScene *scene) {
     check(weft_raster_wait(raster, &error), &error);
     frame(raster, &view);
     const double rest = frame(raster, &view);
-    for (int rate = 3; rate <= 4; rate++) {
+    for (int rate = 4; rate <= 6; rate++) {
         view.shading_rate = rate;
         const Orbit moving = orbit(raster, view);
         printf("| %s | %d x %d | %.0f | %.0f | %.0f | %.1f | %.3f |\n", name, rate, rate, 1e3 * rest,

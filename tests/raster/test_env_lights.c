@@ -1,5 +1,5 @@
 /* Occlusion of the lights of an environment: a wall's shadow on a floor is where the path tracer has it, also on a floor
- * of two triangles, and a map that is turned takes it along */
+ * of two triangles, and a map that is turned takes it along. Lights of a moving picture are fewer, and lose no light. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "raster/gl.h"
+#include "raster/light/merged_lights.h"
 #include "shading/cases.h"
 #include "trace/scenes.h"
 
@@ -143,9 +144,39 @@ static void shadows_show_through_a_veil(void **state) {
     compare_turned(false, 0.8f, "0,-6,0.01;0,0,0;24", 0.04);
 }
 
+/* Of six lights two pairs are a tenth of a radian from each other: these become one light each. */
+static void merged_lights_keep_light_and_directions(void **state) {
+    (void)state;
+    static const Vec3 directions[] = {{1.0f, 0.0f, 0.0f}, {0.995f, 0.0998f, 0.0f}, {0.0f, 1.0f, 0.0f},
+                                      {0.0f, 0.0f, 1.0f}, {0.0998f, 0.0f, 0.995f}, {-1.0f, 0.0f, 0.0f}};
+    AmbientParts parts = {.env_light_count = 6};
+    MergedLight merged[MERGED_LIGHTS];
+    float sum = 0.0f, of[MERGED_OF] = {0.0f};
+    for (int k = 0; k < 6; k++)
+        parts.env_lights[k] = (EnvLight){directions[k], {1.0f, 2.0f, 3.0f + (float)k}, 0.01f, 1};
+    assert_int_equal(merged_lights(&parts, merged), MERGED_LIGHTS);
+    for (int j = 0; j < MERGED_LIGHTS; j++) {
+        float nearest = -1.0f, whole = 0.0f;
+        for (int k = 0; k < 6; k++) nearest = fmaxf(nearest, vec3_dot(merged[j].light.direction, directions[k]));
+        assert_true(nearest > 0.995f); /* pairs were merged, and no others */
+        sum += merged[j].light.color[2];
+        for (int k = 0; k < MERGED_OF; k++) {
+            whole += merged[j].of[k];
+            of[k] += merged[j].of[k];
+        }
+        assert_float_equal(whole, 1.0f, 1e-5f);
+    }
+    assert_float_equal(sum, 18.0f + 15.0f, 1e-4f);
+    for (int k = 0; k < 6; k++) assert_true(of[k] > 0.3f); /* each counts in one */
+    parts.env_light_count = 2;
+    assert_int_equal(merged_lights(&parts, merged), 2);
+    assert_float_equal(merged[1].of[1], 1.0f, 1e-6f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(shadows_of_environment_lights_are_those_of_the_path_tracer),
                                        cmocka_unit_test(shadows_on_two_triangles_are_those_of_the_path_tracer),
-                                       cmocka_unit_test(shadows_show_through_a_veil)};
+                                       cmocka_unit_test(shadows_show_through_a_veil),
+                                       cmocka_unit_test(merged_lights_keep_light_and_directions)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

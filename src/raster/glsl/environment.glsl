@@ -15,7 +15,17 @@ layout(std140) uniform Environment {
     highp vec4 environment_residual[16];
     highp vec4 environment_lights[32];  /* two each: direction and density, irradiance */
     highp vec4 environment_points[128]; /* two each: direction and number of the light, irradiance */
+    highp vec4 environment_merged[8];   /* lights of a moving picture, as environment_lights */
+    highp vec4 environment_merged_of[8]; /* two each: the parts that they have of environment_lights */
+    highp vec4 environment_merged_count;
 };
+#ifdef COARSE
+#define ENVIRONMENT_LIGHTS environment_merged
+#define ENVIRONMENT_LIGHTS_MOST 4
+#else
+#define ENVIRONMENT_LIGHTS environment_lights
+#define ENVIRONMENT_LIGHTS_MOST 16
+#endif
 
 struct AmbientWeights {
     float a, b, c, d;
@@ -85,7 +95,11 @@ Rgb ambient_irradiance(Frame f, Dir w) {
     return environment_rgb(max(c, vec3(0.0)));
 }
 
+#ifdef COARSE
+int ambient_light_count(Frame f) { return int(environment_merged_count.x); }
+#else
 int ambient_light_count(Frame f) { return int(environment_place.w); }
+#endif
 
 float ambient_diffuse(Frame f) { return environment_parts.x; }
 float ambient_reflection(Frame f) { return environment_parts.y; }
@@ -96,8 +110,8 @@ int ambient_nearest_light(Frame f, Dir w) {
     vec3 d = environment_image(f, w);
     float most = -2.0;
     int nearest = -1, count = ambient_light_count(f);
-    for (int k = 0; k < 16; k++) {
-        float mu = k < count ? dot(d, environment_lights[2 * k].xyz) : -2.0;
+    for (int k = 0; k < ENVIRONMENT_LIGHTS_MOST; k++) {
+        float mu = k < count ? dot(d, ENVIRONMENT_LIGHTS[2 * k].xyz) : -2.0;
         if (mu > most) nearest = k;
         most = max(most, mu);
     }
@@ -105,11 +119,11 @@ int ambient_nearest_light(Frame f, Dir w) {
 }
 
 AmbientLight ambient_light(Frame f, int k) {
-    vec3 d = environment_world(environment_lights[2 * k].xyz);
+    vec3 d = environment_world(ENVIRONMENT_LIGHTS[2 * k].xyz);
     AmbientLight l;
     l.w = frame_to(f, dir(d.x, d.y, d.z));
-    l.color = environment_rgb(environment_lights[2 * k + 1].rgb);
-    l.density = environment_lights[2 * k].w;
+    l.color = environment_rgb(ENVIRONMENT_LIGHTS[2 * k + 1].rgb);
+    l.density = ENVIRONMENT_LIGHTS[2 * k].w;
     l.light = k;
     return l;
 }

@@ -89,7 +89,7 @@ const Slots SHOWN = Slots(SHOWS_DIFFUSE, SHOWS_SPECULAR, SHOWS_SHEEN, SHOWS_COAT
 /* The light of polygons in the pixel, as it is and without shadows, and the part of the pixel that the next counts for. */
 vec3 polygons_shadowed = vec3(0.0), polygons_open = vec3(0.0);
 float polygons_weight = 1.0;
-int polygons_first = 0, polygons_number = POLYGON_POINTS; /* the points on a polygon that light what is drawn */
+int polygons_first = 0, polygons_number = POLYGON_POINTS / 2; /* the points on a polygon that light what is drawn */
 #endif
 
 #ifdef POLYGONS

@@ -48,7 +48,11 @@ float ambient_sky_visibility(Frame f, Dir w, float kappa, float cos_i, float occ
 }
 
 /* Returns direction w deflected towards the visible sky. A Gaussian of variance 1 / kappa times V = open + c . x has
- * its mean at c / (kappa open); with V clamped to 0 and 1, at most one standard deviation away. */
+ * its mean at c / (kappa open); with V clamped to 0 and 1, at most one standard deviation away. In a moving picture it is
+ * w. */
+#ifdef COARSE
+Dir ambient_bent_direction(Frame f, Dir w, float kappa, float open) { return w; }
+#else
 Dir ambient_bent_direction(Frame f, Dir w, float kappa, float open) {
     vec3 c = fragment_open().yzw;
     c *= steepness(c, kappa);
@@ -56,14 +60,22 @@ Dir ambient_bent_direction(Frame f, Dir w, float kappa, float open) {
     float by = min(1.0 / (kappa * max(open, 0.01)), inversesqrt(kappa * max(dot(c, c), 1e-12)));
     return dir_normal_or(dir_add(w, dir_scale(slope, open < 1.0 ? by : 0.0)), w);
 }
+#endif
 
 /* Returns the visible fraction of light k, below 0 without a value. Fragments beside their triangle are a little out of
  * range. */
+#ifdef COARSE
+float env_light_seen(int k) {
+    vec4 a = environment_merged_of[2 * max(k, 0)], b = environment_merged_of[2 * max(k, 0) + 1];
+    return k < 0 ? -1.0 : dot(a, min(vertex_lights_0, 1.0)) + dot(b, min(vertex_lights_1, 1.0));
+}
+#else
 float env_light_seen(int k) { return k < 0 ? -1.0 : k < 4 ? vertex_lights_0[k] : vertex_lights_1[k - 4]; }
+#endif
 
 float ambient_light_visibility(Frame f, int k, float occlusion) {
     float seen = env_light_seen(k);
-    vec3 d = environment_world(environment_lights[2 * k].xyz);
+    vec3 d = environment_world(ENVIRONMENT_LIGHTS[2 * k].xyz);
     float width = 1.732 * exp2(-0.5 * environment_terms[0].w); /* even light of the lights' mean spread */
     float above = above_smooth(f, dir(d.x, d.y, d.z), width);
     return seen < -0.5 ? occlusion : clamp(seen, 0.0, 1.0) * texture_occlusion * above;

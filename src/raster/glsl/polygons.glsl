@@ -27,7 +27,8 @@ PolygonReach polygon_reach(bool transmits, Facing at) {
 }
 
 #ifdef COARSE
-/* Returns the light of all polygons: that of some points on each, the same for all pixels. Adds it to that of the pixel. polygon_normals.w: 1 if both sides emit, else 0. */
+/* Returns the light of all polygons: that of two points on each, on a diagonal, the same for all pixels. Adds it to that of
+ * the pixel. polygon_normals.w: 1 if both sides emit, else 0. */
 Rgb polygon_light(Stack m, StackView w, PolygonReach reach, Frame f) {
     vec3 here = eye.xyz + from_eye;
     Rgb sum = rgb_grey(0.0);

@@ -13,6 +13,7 @@
 #include "image/half.h"
 #include "raster/gl/gl_check.h"
 #include "raster/gl/program.h"
+#include "raster/light/merged_lights.h"
 #include "scene/light/backdrop.h"
 
 /* Raised whenever the same pixels would give other cubes. */
@@ -29,7 +30,8 @@ enum { IRRADIANCE_TERMS = 18, DEGREE_3 = 9, DEGREE_4 = 16 };
 /* The block Environment, as the shader has it. */
 typedef struct Block {
     float place[4], parts[4], terms[IRRADIANCE_TERMS][4], residual[AMBIENT_RESIDUAL_TERMS][4],
-        env_lights[2 * AMBIENT_LIGHTS_MAX][4], points[2 * AMBIENT_POINTS_MAX][4];
+        env_lights[2 * AMBIENT_LIGHTS_MAX][4], points[2 * AMBIENT_POINTS_MAX][4], merged[2 * MERGED_LIGHTS][4],
+        merged_of[MERGED_LIGHTS][MERGED_OF], merged_count[4];
 } Block;
 
 /* One level of a cube, and its source. */
@@ -289,6 +291,18 @@ static void put_light(float to[2][4], Vec3 direction, float x, const float color
     memcpy(to, numbers, sizeof numbers);
 }
 
+/* Writes the lights of a moving picture. */
+static void put_merged(const AmbientParts *parts, Block *block) {
+    MergedLight merged[MERGED_LIGHTS];
+    const int count = merged_lights(parts, merged);
+    for (int k = 0; k < count; k++) {
+        const EnvLight *light = &merged[k].light;
+        put_light(&block->merged[2 * k], light->direction, env_light_density(light), light->color);
+        memcpy(block->merged_of[k], merged[k].of, sizeof merged[k].of);
+    }
+    block->merged_count[0] = (float)count;
+}
+
 static void make_buffer(GlEnvironment *self) {
     Block block = {.place = {0}}; /* and parts: environment_place */
     for (int k = 0; k < IRRADIANCE_TERMS; k++)
@@ -303,6 +317,7 @@ static void make_buffer(GlEnvironment *self) {
         const EnvPoint *point = &self->parts.points[k];
         put_light(&block.points[2 * k], point->direction, (float)point->light, point->color);
     }
+    put_merged(&self->parts, &block);
     block.terms[0][3] = self->parts.env_light_kappa;
     glGenBuffers(1, &self->buffer);
     glBindBuffer(GL_UNIFORM_BUFFER, self->buffer);
