@@ -14,7 +14,7 @@ typedef struct MaterialFit {
     bool dense;            /* true if the fit's `denser` exceeds AMBIENT_DENSER */
     float finest;          /* as AmbientFit has it */
     Lobe lobe;
-    int cloth; /* its number, of a cloth's table; 0: the table is that of the lobe */
+    int cloth; /* number of the cloth that the table is of; 0: it is of the lobe */
 } MaterialFit;
 
 typedef struct GlMaterial {
