@@ -4,6 +4,7 @@
 #include <meshoptimizer.h>
 
 #include "base/little_endian.h"
+#include "gltf/asset/vertex_codec.h"
 
 const char *meshopt_reason(const Compression *c, size_t size) {
     if (c->stride == 0 || c->count != size / c->stride || size % c->stride)
@@ -43,18 +44,18 @@ static void color_unfilter(unsigned char *bytes, size_t count, size_t stride) {
     }
 }
 
-/* Returns true for vertices of the codec's version 1, which KHR_meshopt_compression has beside version 0. */
-static bool is_newer(const Compression *c) {
-    return c->mode == MODE_ATTRIBUTES && c->source.size > 0 && c->source.data[0] == 0xa1;
+/* Decodes vertices of either version of the codec. Returns false if they are damaged. */
+static bool vertices_decode(const Compression *c, unsigned char *out) {
+    if (c->source.size && c->source.data[0] == VERTEX_CODEC_1)
+        return vertex_decode(c->source.data, c->source.size, c->count, c->stride, out);
+    return meshopt_decodeVertexBuffer(out, c->count, c->stride, c->source.data, c->source.size) == 0;
 }
 
 const char *meshopt_decode(const Compression *c, unsigned char *out) {
     if (!c->source.data) return "its buffer has no data";
     int failed = 1;
     switch (c->mode) {
-    case MODE_ATTRIBUTES:
-        failed = meshopt_decodeVertexBuffer(out, c->count, c->stride, c->source.data, c->source.size);
-        break;
+    case MODE_ATTRIBUTES: failed = !vertices_decode(c, out); break;
     case MODE_TRIANGLES:
         failed = meshopt_decodeIndexBuffer(out, c->count, c->stride, c->source.data, c->source.size);
         break;
@@ -62,8 +63,6 @@ const char *meshopt_decode(const Compression *c, unsigned char *out) {
         failed = meshopt_decodeIndexSequence(out, c->count, c->stride, c->source.data, c->source.size);
         break;
     }
-    if (failed && is_newer(c))
-        return "version 1 of the vertex codec, which this libmeshoptimizer does not decode; compress it with version 0";
     if (failed) return "damaged data";
     switch (c->filter) {
     case FILTER_NONE: break;
