@@ -300,6 +300,22 @@ static void strength_of_specular_dims_no_metal_in_filament(void **state) {
     folder_clear("dim");
 }
 
+/* Filament draws no specular reflection beside a sheen, of metals neither, where KHR_materials_specular is missing. */
+static void sheen_has_a_specular_beside_it_in_filament(void **state) {
+    (void)state;
+    asset_make("\"KHR_materials_sheen\":{\"sheenColorFactor\":[0.4,0.4,0.4],\"sheenRoughnessFactor\":0.5}");
+    delivered(LIST("deliver", "asset.gltf", "--from", "filament-sheen", "--to", "filament", "-o", "rim", "--width",
+                   "32", "--spp", "1"));
+    json_t *root = glb_json("rim/asset-filament.glb");
+    const json_t *material = json_array_get(json_object_get(root, "materials"), 0);
+    assert_non_null(part(material, "KHR_materials_sheen"));
+    const json_t *color = json_object_get(part(material, "KHR_materials_specular"), "specularColorFactor");
+    assert_int_equal(json_array_size(color), 3);
+    assert_true(tells(json_object_get(root, "extensionsUsed"), "KHR_materials_specular"));
+    json_decref(root);
+    folder_clear("rim");
+}
+
 static void unlit_material_keeps_its_color(void **state) {
     (void)state;
     char text[1024];
@@ -613,6 +629,7 @@ int main(void) {
         cmocka_unit_test(unlit_material_keeps_its_color),
         cmocka_unit_test(glass_keeps_its_color),
         cmocka_unit_test(strength_of_specular_dims_no_metal_in_filament),
+        cmocka_unit_test(sheen_has_a_specular_beside_it_in_filament),
         cmocka_unit_test(cloth_is_fitted_for_each_target),
         cmocka_unit_test(levels_are_for_those_who_read_them),
         cmocka_unit_test(fine_normal_maps_get_levels),

@@ -292,14 +292,18 @@ static WeftResult file_finish(Delivering *self, WeftDelivery *delivery, WeftErro
     WeftResult result = asset.result == WEFT_OK ? rewrite_begin(&rewrite, &asset, error) : asset.result;
     if (result == WEFT_OK) {
         json_t *materials = json_object_get(rewrite.root, "materials");
-        for (int k = 0; k < self->count; k++) {
+        for (int k = 0; k < self->count && result == WEFT_OK; k++) {
             json_t *material = json_array_get(materials, (size_t)k);
-            if (material && is_due(self, &self->parcels[k])) parcel_write(&self->parcels[k], material);
-            if (material) viewer_strength_fold(self->target, material);
+            if (!material) continue;
+            if (is_due(self, &self->parcels[k])) parcel_write(&self->parcels[k], material);
+            viewer_strength_fold(self->target, material);
+            result = viewer_specular_put(&rewrite, self->target, material, error);
         }
-        delivery->extensions = viewer_extensions_text(rewrite.root);
-        result = delivery->extensions ? rewrite_save(&rewrite, self->out, error)
-                                      : fail(error, WEFT_MESSAGE_MEMORY, self->out, NULL);
+        if (result == WEFT_OK) {
+            delivery->extensions = viewer_extensions_text(rewrite.root);
+            result = delivery->extensions ? rewrite_save(&rewrite, self->out, error)
+                                          : fail(error, WEFT_MESSAGE_MEMORY, self->out, NULL);
+        }
         rewrite_end(&rewrite);
     }
     gltf_close(&asset);

@@ -4,7 +4,8 @@
  * (@babylonjs/loaders, glTF/2.0/Extensions), in google/filament 1.53.4 (libs/gltfio) and in KhronosGroup/glTF-Blender-IO.
  * Babylon.js's usual material takes the numbers of KHR_materials_fuzz for those of a sheen, so that the sheen beside the
  * fuzz, which is fitted to it, serves it better. Filament's build for the web ignores KHR_materials_anisotropy, ends where
- * a material has KHR_materials_ior, and dims metals by the factor of KHR_materials_specular, but not by its colour. */
+ * a material has KHR_materials_ior, dims metals by the factor of KHR_materials_specular, but not by its colour, and draws no
+ * specular reflection at all, of metals neither, beside a sheen where a material has no KHR_materials_specular. */
 #include "measure/match/viewer_reads.h"
 
 #include <math.h>
@@ -31,6 +32,9 @@ enum { KHRONOS = 1, THREE = 2, BABYLON = 4, FILAMENT = 8, BLENDER = 16, CORE = 3
 
 /* The targets that multiply the reflection of metals, too, by specularFactor, which is of dielectrics only. */
 enum { STRENGTH_DIMS_METALS = FILAMENT };
+
+/* The targets that shade a sheen without KHR_materials_specular as if its strength were 0. */
+enum { SHEEN_WANTS_SPECULAR = FILAMENT };
 
 /* The effect of leaving an extension out. */
 typedef enum Effect {
@@ -132,6 +136,14 @@ void viewer_strength_fold(int target, json_t *material) {
     const double scale = json_number_value(strength);
     json_object_del(specular, "specularFactor");
     if (scale < 1.0) specular_color_scale(specular, scale);
+}
+
+WeftResult viewer_specular_put(Rewrite *rewrite, int target, json_t *material, WeftError *error) {
+    json_t *parts = json_object_get(material, "extensions");
+    if ((SHEEN_WANTS_SPECULAR >> target & 1u) == 0 || !json_object_get(parts, "KHR_materials_sheen")) return WEFT_OK;
+    json_t *specular = factor_home(parts, specular_name);
+    if (!json_object_get(specular, "specularColorFactor")) specular_color_scale(specular, 1.0);
+    return rewrite_uses(rewrite, specular_name, error);
 }
 
 /* Deletes a member, and the object itself where that leaves it empty. */

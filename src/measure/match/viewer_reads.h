@@ -24,6 +24,10 @@ WeftResult viewer_limit(Rewrite *rewrite, int target, json_t *material, const Vi
  * multiply F0, and none but the factor multiplies F90, which such a target computes of F0. */
 void viewer_strength_fold(int target, json_t *material);
 
+/* Writes KHR_materials_specular with its usual numbers beside a sheen where the target would else draw no specular
+ * reflection. Fails with WEFT_MESSAGE_MEMORY. */
+WeftResult viewer_specular_put(Rewrite *rewrite, int target, json_t *material, WeftError *error);
+
 /* Removes from extensionsUsed and extensionsRequired the extensions that viewer_limit takes out. */
 void viewer_uses(Rewrite *rewrite, int target);
 
