@@ -1,13 +1,14 @@
 /* baked - prints how far the textures of woven cloths are from their threads, from near to far
  *
- *   study_baked [--profile NAME] [--size PIXELS] PRESET ...
+ *   study_baked [--profile NAME] [--size PIXELS] PRESET|/FILE.json ...
  *
- * Each preset is baked and path traced on an arc of +-75 degrees (measure/arc.h) under a profile, khronos unless told: the
- * textures as they are, which the path tracer means in light (png); with mip levels that are means of texels, which
- * viewers draw (means); and with levels of their own (ktx2). A line for each has, at 4, 16, 64 and 256 texels a pixel in
- * the middle, the mean over six lights of the profile's error, in percent of the light, and that under an even sky, signed;
- * then, with the light aside, at 4 texels the contrast over that of the threads and the correlation with them; and with
- * it behind, at 16 and 64, the change of pixels by a shift of (0.37, 0.21) pixels over their mean, and that of the threads. */
+ * Each preset, or woven material of a file, is baked and path traced on an arc of +-75 degrees (measure/arc.h) under a
+ * profile, khronos unless told: the textures as they are, which the path tracer means in light (png); with mip levels that
+ * are means of texels, which viewers draw (means); and with levels of their own (ktx2). A line for each has, at 4, 16, 64
+ * and 256 texels a pixel in the middle, the mean over six lights of the profile's error, in percent of the light, and that
+ * under an even sky, signed; then, with the light aside, at 4 texels the contrast over that of the threads and the
+ * correlation with them; and with it behind, at 16 and 64, the change of pixels by a shift of (0.37, 0.21) pixels over
+ * their mean, and that of the threads. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -142,11 +143,11 @@ static void line_print(const char *name, const char *profile, int kind, double t
 
 static void preset_print(const char *name, const char *profile, int side) {
     static Truth truth;
-    char path[128];
+    char path[4096];
     WeftMaterial material;
     WeftCloth *cloth;
     WeftError error;
-    snprintf(path, sizeof path, "preset:%s", name);
+    snprintf(path, sizeof path, "%s%s", *name == '/' ? "" : "preset:", name);
     if (weft_material_read_woven(path, &material, &cloth, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     if (!cloth) fail_msg("%s: is not woven", name);
     bake(&material, cloth, profile, side);
@@ -167,7 +168,7 @@ int main(int count, char **arguments) {
         if (strcmp(arguments[first], "--size") == 0) side = (int)strtol(arguments[first + 1], NULL, 10);
     }
     if (first >= count || side < 16 || side > 8192) {
-        fprintf(stderr, "use: study_baked [--profile NAME] [--size PIXELS] PRESET ...\n");
+        fprintf(stderr, "use: study_baked [--profile NAME] [--size PIXELS] PRESET|/FILE.json ...\n");
         return 2;
     }
     if (!scratch_enter(folder)) return 1;

@@ -39,7 +39,7 @@ static MapLevels levels_of(const WeftCloth *cloth, const char *profile, bool hol
                           .normal = 0.5f,
                           .specular = 1.0f,
                           .sheen_roughness = 0.6f,
-                          .occlusion = 1.0f};
+                          .occlusion = {1.0f, 1.0f}};
     MapLevels levels;
     WeftMaterial material;
     WeftError error;
@@ -68,7 +68,7 @@ static double squares_of(const MapLevels *levels, int level, int column, int row
 static double open_of(const MapLevels *levels, int level, int column, int row) {
     unsigned char maps[MAP_LEVEL_MAPS][4];
     map_level_texel(levels, level, column, row, maps);
-    return 1.0 - (1.0 - maps[2][0] / 255.0) / (double)levels->items[level].occlusion;
+    return 1.0 - (1.0 - maps[2][0] / 255.0) / (double)levels->items[level].occlusion.strength;
 }
 
 static void levels_are_means_of_threads(void **state) {
@@ -87,7 +87,8 @@ static void levels_are_means_of_threads(void **state) {
         }
         assert_true(cover > 0.2 && cover < 0.8);
         for (int k = 0; k < levels.count; k++) /* so that the last level shows what it holds */
-            levels.items[k].occlusion = levels.items[k].roughness = levels.items[k].anisotropy = 1.0f;
+            levels.items[k].occlusion.strength = levels.items[k].occlusion.factor = levels.items[k].roughness =
+                levels.items[k].anisotropy = 1.0f;
         const int last = levels.count - 1;
         print_message("cover %.2f: %.3f of %.3f, sky %.3f of %.3f\n", cover, squares_of(&levels, last, 0, 0),
                       squares / cover, open_of(&levels, last, 0, 0), open / cover);

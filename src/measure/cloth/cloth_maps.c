@@ -66,8 +66,8 @@ static void put_texel(MapBake *b, const MapTexel *t, int column, int row) {
     to[0] = pixel_byte(0.5f + 0.5f * x * n), to[1] = pixel_byte(0.5f + 0.5f * y * n),
     to[2] = pixel_byte(0.5f + 0.5f * n);
     to = texel_at(b, MAP_ROUGHNESS, column, row);
-    to[0] = pixel_byte(t->open / cover), to[1] = pixel_byte(b->look.roughness * t->roughness / cover),
-    to[2] = pixel_byte(b->look.metallic);
+    to[0] = pixel_byte(b->look.occlusion.factor * t->open / cover),
+    to[1] = pixel_byte(b->look.roughness * t->roughness / cover), to[2] = pixel_byte(b->look.metallic);
     to = texel_at(b, MAP_ANISOTROPY, column, row);
     to[0] = pixel_byte(0.5f + 0.5f * cosf(angle)), to[1] = pixel_byte(0.5f + 0.5f * sinf(angle)),
     to[2] = pixel_byte(b->look.anisotropy * stretch);
@@ -172,7 +172,7 @@ static void write_face(FILE *stream, const MapBake *b, const char *place) {
     const MapLook *look = &b->look;
     const MapInput inputs[] = {{"base_color", MAP_COLOR, NULL, NULL},
                                {"normal", MAP_NORMAL, NULL, &look->normal},
-                               {"occlusion", MAP_ROUGHNESS, "r", &look->occlusion},
+                               {"occlusion", MAP_ROUGHNESS, "r", &look->occlusion.strength},
                                {"roughness", MAP_ROUGHNESS, "g", NULL},
                                {"metallic", MAP_ROUGHNESS, "b", NULL},
                                {"anisotropy", MAP_ANISOTROPY, "b", NULL},
@@ -306,7 +306,7 @@ static WeftResult make_face(MapBake *b, const char *folder, WeftError *error) {
     WeftResult result = bake_face(b, folder, error);
     if (result != WEFT_OK || !b->leveled) return result;
     b->look.normal = b->levels.normal;
-    b->look.occlusion = 1.0f; /* the map of each level has the strength */
+    b->look.occlusion.strength = 1.0f; /* the map of each level has the strength */
     return write_levels(b, &b->levels, folder, error);
 }
 

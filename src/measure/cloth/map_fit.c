@@ -5,6 +5,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/pi.h"
 #include "base/thread.h"
 #include "measure/bsdf/halton.h"
 #include "measure/bsdf/weave_sum.h"
@@ -16,12 +17,12 @@ const SearchAxis map_axes[AXES] = {{0.0, 1.0}, {0.3, 2.0}, {0.0, 1.1}, {0.05, 1.
 /* Contrast that is off by more than it may costs this for each factor of e. */
 static const double contrast_price = 0.25;
 
-/* Returns the surface of a texel: its base is white in one channel, its sheen in another. */
+/* Returns the surface of a texel: its base has a colour in one channel, its sheen in another. */
 static Surface texel_surface(const MapFit *fit, const LookTexel *t) {
     const double *x = fit->x;
     const float scale = (float)x[AXIS_NORMAL];
     Surface s = fit->bare;
-    s.base_color = rgb(0.0f, 1.0f, 0.0f);
+    s.base_color = rgb(0.0f, fit->typical, 0.0f);
     s.sheen_color = rgb((float)x[AXIS_SHEEN], 0.0f, 0.0f);
     s.sheen_roughness = (float)x[AXIS_SHEEN_ROUGHNESS];
     s.metallic = (float)x[AXIS_METALLIC];
@@ -31,6 +32,18 @@ static Surface texel_surface(const MapFit *fit, const LookTexel *t) {
     s.anisotropy_direction = dir_normal_or(dir(t->along[0], t->along[1], 0.0f), dir(1.0f, 0.0f, 0.0f));
     s.normal = dir_normal_or(dir(scale * t->normal[0], scale * t->normal[1], t->normal[2]), dir(0.0f, 0.0f, 1.0f));
     return s;
+}
+
+/* Returns the solid angle that a direction stands for, one of `count` that are spread by the cosine. */
+static double sky_share(Dir i, int count) { return PI_DOUBLE / (count * (double)i.z); }
+
+/* Adds what a texel reflects to the parts of a pair, `part` times. light: what reaches it. */
+static void parts_add(const MapFit *fit, const LookTexel *t, double light, double part, Rgb f, int pair,
+                      double parts[PARTS][MAP_PAIRS]) {
+    parts[PART_REST][pair] += part * (double)(t->cover * f.b);
+    parts[PART_SHEEN][pair] += part * (double)(t->cover * (f.r - f.b));
+    for (int c = 0; c < 3; c++)
+        parts[PART_BASE + c][pair] += part * light * (double)(t->cover * t->color[c] * (f.g - f.b) / fit->typical);
 }
 
 /* Adds f cos of a texel to the parts, `part` times. */
@@ -45,15 +58,18 @@ static void shade(const MapFit *fit, const LookTexel *t, double part, double par
     for (int out = 0; out < MAP_OUTS; out++) {
         const Frame frame = frame_of(facing, surface, fit->pairs.o[out]);
         const Dir o = frame_to(frame, fit->pairs.o[out]);
+        const int first = fit->pairs.first[out];
+        const bool sky = out >= MAP_NORMALS;
         stack_see(&seen.stack, &o, &seen.view);
-        for (int k = fit->pairs.first[out]; k < fit->pairs.first[out + 1]; k++) {
+        if (sky && fit->own_sky) {
+            parts_add(fit, t, light, part, map_sky_light(&fit->sky, &seen, &framed), first, parts);
+            continue;
+        }
+        for (int k = first; k < fit->pairs.first[out + 1]; k++) {
             const Dir i = frame_to(frame, fit->pairs.i[k]);
             if (!(i.z > 0.0f) || !(fit->pairs.i[k].z > 0.0f)) continue;
-            const Rgb f = stack_eval_of(&seen.stack, &seen.view, slots_all(), i).f_cos;
-            parts[PART_REST][k] += part * (double)(t->cover * f.b);
-            parts[PART_SHEEN][k] += part * (double)(t->cover * (f.r - f.b));
-            for (int c = 0; c < 3; c++)
-                parts[PART_BASE + c][k] += part * light * (double)(t->cover * t->color[c] * (f.g - f.b));
+            const double share = sky ? part * sky_share(fit->pairs.i[k], MAP_SKY_INS) : part;
+            parts_add(fit, t, light, share, stack_eval_of(&seen.stack, &seen.view, slots_all(), i).f_cos, k, parts);
         }
     }
 }
@@ -88,6 +104,11 @@ static double row_value(const MapFit *fit, const double parts[PARTS], int c) {
     return parts[PART_REST] + fit->gains[c] * parts[PART_BASE + c] + fit->tints[c] * parts[PART_SHEEN];
 }
 
+static bool is_sky(int row) { return map_group(row % MAP_ROWS) == MAP_LIGHTS; }
+
+/* Returns the part of a row's light that occlusion leaves. */
+static double row_dim(const MapFit *fit, int row) { return is_sky(row) ? fit->dim : 1.0; }
+
 /* Sets the gain of the base and the tint of the sheen in a channel to those of least squares within their ranges, one
  * after the other until they settle. Errors are weighted between absolute and relative ones. */
 static void solve(MapFit *fit, int c) {
@@ -95,9 +116,9 @@ static void solve(MapFit *fit, int c) {
     double bb = 1e-30, bs = 0.0, ss = 1e-30, b = 0.0, s = 0.0;
     for (int k = 0; k < rows_of(fit); k++) {
         const LookRow *row = &fit->rows[k];
-        const double w = row->weight * row->weight / (row->weight * row->goal[c] + 0.01);
-        const double base = row->parts[PART_BASE + c], sheen = row->parts[PART_SHEEN];
-        const double left = row->goal[c] - row->parts[PART_REST];
+        const double w = row->weight * row->weight / (row->weight * row->goal[c] + 0.01), dim = row_dim(fit, k);
+        const double base = dim * row->parts[PART_BASE + c], sheen = dim * row->parts[PART_SHEEN];
+        const double left = row->goal[c] - dim * row->parts[PART_REST];
         bb += w * base * base, bs += w * base * sheen, ss += w * sheen * sheen;
         b += w * base * left, s += w * sheen * left;
     }
@@ -113,9 +134,9 @@ double map_fit_error_now(const MapFit *fit, double *sky) {
     for (int k = 0; k < rows_of(fit); k++)
         for (int c = 0; c < 3; c++) {
             const LookRow *row = &fit->rows[k];
-            const double value = row_value(fit, row->parts, c);
+            const double value = row_dim(fit, k) * row_value(fit, row->parts, c);
             sum += row->weight * fabs(value - row->goal[c]);
-            if (map_group(k % MAP_ROWS) < MAP_LIGHTS) continue;
+            if (!is_sky(k)) continue;
             made += value, goal += row->goal[c];
         }
     *sky = made / fmax(goal, 1e-12);
@@ -157,11 +178,24 @@ static double block_made(const MapFit *fit, const LookBlock *b, int half, int pa
     return sum;
 }
 
+/* Sets gains and tints, and how much the occlusion map takes of a viewer's own sky, where that would be too bright. */
+static void balance(MapFit *fit) {
+    enum { ROUNDS = 3 };
+    double sky;
+    fit->dim = 1.0;
+    for (int k = 0; k < (fit->own_sky ? ROUNDS : 1); k++) {
+        for (int c = 0; c < 3; c++) solve(fit, c);
+        if (!fit->own_sky) continue;
+        (void)map_fit_error_now(fit, &sky);
+        fit->dim = fmin(fit->dim / fmax(sky, 1e-3), 1.0);
+    }
+}
+
 double map_fit_error(MapFit *fit, const double *x, double *sky) {
     fit->x = x;
     parallel_for(0, fit->count, block_shade, fit);
     rows_fill(fit);
-    for (int c = 0; c < 3; c++) solve(fit, c);
+    balance(fit);
     fit->contrast = contrast_of(fit, block_made);
     return map_fit_error_now(fit, sky);
 }
@@ -181,8 +215,10 @@ void map_fit_center(MapFit *fit, int first, int per, const LookTexel *whole) {
     }
 }
 
-float map_fit_occlusion(const MapFit *fit, double sky) {
-    return (float)fmin(fmax((1.0 - 1.0 / fmax(sky, 1e-3)) / fmax(1.0 - (double)fit->open, 1e-3), 0.0), 1.0);
+MapOcclusion map_fit_occlusion(const MapFit *fit, double sky) {
+    const double left = fit->own_sky ? fit->dim : fmin(1.0 / fmax(sky, 1e-3), 1.0), open = (double)fit->open;
+    if (left >= open) return (MapOcclusion){(float)((1.0 - left) / fmax(1.0 - open, 1e-3)), 1.0f};
+    return (MapOcclusion){1.0f, (float)(fit->own_sky ? left / fmax(open, 1e-3) : 1.0)};
 }
 
 double map_fit_price(const MapFit *fit, double sky, double room) {
@@ -212,26 +248,34 @@ static bool table_make(MapFit *fit) {
     return true;
 }
 
-/* Sets the light of the cloth in all rows, and their weights, 1 over the light of the group. */
+/* Adds f of the cloth, `part` times, to the goal of a row. */
+static void goal_add(LookRow *row, const WeftReflection *cloth, Dir w, Dir v, double part) {
+    const float o[3] = {w.x, w.y, w.z}, i[1][3] = {{v.x, v.y, v.z}};
+    float f[1][3];
+    weft_reflection_eval(cloth, WEFT_PART_ALL, o, 1, i, f);
+    for (int c = 0; c < 3; c++) row->goal[c] += part * (double)f[0][c];
+}
+
+/* Sets the light of the cloth in all rows, and their weights, 1 over the light of the group. A sky that the viewer has by
+ * directions is compared direction by direction. */
 static void goals_set(MapFit *fit, const WeftReflection *cloth) {
+    enum { MANY = 1024 };
+    const int ins = fit->own_sky ? MANY : MAP_SKY_INS;
     double light[MAP_GROUPS] = {0.0};
-    for (int out = 0; out < MAP_OUTS; out++) {
-        const Dir w = fit->pairs.o[out];
-        const float o[3] = {w.x, w.y, w.z};
-        for (int k = fit->pairs.first[out]; k < fit->pairs.first[out + 1]; k++) {
-            const Dir v = fit->pairs.i[k];
-            const float i[1][3] = {{v.x, v.y, v.z}};
-            float f[1][3];
-            weft_reflection_eval(cloth, WEFT_PART_ALL, o, 1, i, f);
-            for (int c = 0; c < 3; c++) fit->rows[map_row(k)].goal[c] += (double)(f[0][c] * fmaxf(v.z, 0.0f));
-        }
+    for (int k = 0; k < MAP_CONTRASTS; k++) {
+        const Dir v = fit->pairs.i[k];
+        goal_add(&fit->rows[k], cloth, fit->pairs.o[k / MAP_LIGHTS], v, (double)fmaxf(v.z, 0.0f));
     }
+    for (int k = 0; k < MAP_SKIES * ins; k++)
+        goal_add(&fit->rows[MAP_CONTRASTS + k / ins], cloth, fit->pairs.o[MAP_NORMALS + k / ins],
+                 map_sky_in(k % ins, ins, k / ins), PI_DOUBLE / ins);
     for (int k = 0; k < MAP_ROWS; k++)
         for (int c = 0; c < 3; c++) light[map_group(k)] += fit->rows[k].goal[c];
     for (int k = 0; k < MAP_ROWS; k++) {
         fit->rows[k].weight = 1.0 / fmax(light[map_group(k)], 1e-12);
         fit->rows[MAP_ROWS + k] = fit->rows[k];
     }
+    fit->typical = (float)fmin(fmax(light[MAP_LIGHTS] / (3.0 * MAP_SKIES), 0.05), 1.0);
 }
 
 void map_fit_unread(const MapFit *fit, SearchAxis axis[AXES]) {
@@ -311,6 +355,9 @@ static void viewer_set(MapFit *fit, int profile) {
     fit->choices = material_choices(&bare);
     fit->plain = bare;
     for (int c = 0; c < 3; c++) fit->plain.inputs[INPUT_sheen_color].value[c] = 1.0f;
+    Stack stack;
+    stack_make(&stack, &fit->bare, &fit->choices, (TableRef){.kind = TABLE_NONE});
+    fit->own_sky = map_sky_is_own(&stack);
 }
 
 WeftResult map_fit_create(const MapGrid *grid, const WeftMaterial *material, const WeftCloth *cloth, int profile,
@@ -325,7 +372,8 @@ WeftResult map_fit_create(const MapGrid *grid, const WeftMaterial *material, con
         (MapFit){.grid = grid, .cloth = cloth, .material = material, .blocks = blocks, .holed = holed, .count = BLOCKS};
     viewer_set(fit, profile);
     fit->pairs = map_pairs();
-    const WeftResult result = weft_reflection_create_woven(material, cloth, &fit->threads, error);
+    WeftResult result = weft_reflection_create_woven(material, cloth, &fit->threads, error);
+    if (result == WEFT_OK && fit->own_sky) result = map_sky_create(&fit->sky, error);
     if (result != WEFT_OK) return result;
     if (!table_make(fit)) return fail(error, WEFT_MESSAGE_MEMORY, "maps", NULL);
     goals_set(fit, fit->threads);
@@ -335,6 +383,7 @@ WeftResult map_fit_create(const MapGrid *grid, const WeftMaterial *material, con
 void map_fit_free(MapFit *fit) {
     if (!fit) return;
     weft_reflection_free(fit->threads);
+    map_sky_free(&fit->sky);
     free(fit->table);
     free(fit->blocks);
     free(fit);

@@ -6,6 +6,7 @@
 
 #include "measure/bsdf/reflection.h"
 #include "measure/cloth/map_pairs.h"
+#include "measure/cloth/map_sky.h"
 #include "measure/cloth/map_texel.h"
 #include "measure/fit/search.h"
 #include "scene/record/material_at.h"
@@ -38,8 +39,9 @@ typedef struct LookTexel {
 enum { PART_REST, PART_BASE, PART_SHEEN = PART_BASE + 3, PARTS };
 
 typedef struct LookBlock {
-    LookTexel texels[TEXELS];      /* those that are shaded, and the coarse one behind them */
-    double fine[PARTS][MAP_PAIRS]; /* of the texels as they are: their mean */
+    LookTexel texels[TEXELS]; /* those that are shaded, and the coarse one behind them */
+    double fine[PARTS]
+               [MAP_PAIRS]; /* of the texels as they are: their mean. Of skies: shares of what is seen of radiance 1 */
     double coarse[PARTS][MAP_PAIRS];
     double near[2][MAP_CONTRASTS]; /* what two halves of the points of threads in it reflect, means of channels */
 } LookBlock;
@@ -56,6 +58,10 @@ typedef struct MapFit {
     Material plain; /* the same with a sheen */
     Choices choices;
     AlbedoTable *table;
+    MapSky sky;
+    bool own_sky;  /* the viewer lights by a sky in its own way (map_sky.h), and not by all its directions */
+    float typical; /* base colour at which parts are taken, since not all of it is linear */
+    double dim;    /* the part of such a sky that the occlusion map leaves */
     MapPairs pairs;
     LookBlock *blocks;
     bool holed;              /* gaps are holes */
@@ -93,7 +99,7 @@ double map_fit_contrast(const MapFit *fit, bool halves);
 /* Leaves the numbers that a profile does not read at what a file without them means. */
 void map_fit_unread(const MapFit *fit, SearchAxis axis[AXES]);
 
-/* Shades the texels of the first `count` blocks with these numbers, and sets gains, tints and contrast. Returns the
+/* Shades the texels of the first `count` blocks with these numbers, and sets gains, tints, contrast and dim. Returns the
  * error, and the light of an even sky that comes back over that of the cloth. */
 double map_fit_error(MapFit *fit, const double *x, double *sky);
 
@@ -104,8 +110,13 @@ double map_fit_error_now(const MapFit *fit, double *sky);
  * alone, and a cloth whose threads lean to one side in the mean would reflect to that side. */
 void map_fit_center(MapFit *fit, int first, int per, const LookTexel *whole);
 
-/* Returns the strength of the occlusion map that takes back what a sky gives too much. */
-float map_fit_occlusion(const MapFit *fit, double sky);
+/* What the occlusion map does: 1 - strength (1 - factor open), of the visible fraction of the sky. */
+typedef struct MapOcclusion {
+    float strength, factor;
+} MapOcclusion;
+
+/* Returns the occlusion that takes back what a sky gives too much. */
+MapOcclusion map_fit_occlusion(const MapFit *fit, double sky);
 
 /* Returns what contrast and sky add to an error. room: the factor by which contrast may be off for nothing. */
 double map_fit_price(const MapFit *fit, double sky, double room);

@@ -264,7 +264,7 @@ void map_level_texel(const MapLevels *levels, int level, int column, int row, un
     maps[0][3] = pixel_byte(plane_at(from, PLANE_COLOR, at)[3]);
     maps[1][0] = pixel_byte(0.5f + 0.5f * x * n), maps[1][1] = pixel_byte(0.5f + 0.5f * y * n);
     maps[1][2] = pixel_byte(0.5f + 0.5f * t.normal[2] * n);
-    maps[2][0] = pixel_byte(1.0f - from->occlusion * (1.0f - open));
+    maps[2][0] = pixel_byte(1.0f - from->occlusion.strength * (1.0f - from->occlusion.factor * open));
     maps[2][1] = pixel_byte(from->roughness * t.roughness);
     maps[2][2] = pixel_byte(from->metallic);
     maps[3][0] = pixel_byte(0.5f + 0.5f * t.along[0]), maps[3][1] = pixel_byte(0.5f + 0.5f * t.along[1]);

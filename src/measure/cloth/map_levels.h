@@ -25,8 +25,8 @@ typedef struct MapLevel {
     float *planes[PLANES];
     float color[3], roughness, anisotropy, metallic; /* factors, and the number itself */
     float relief;                                    /* factor on the slopes of normals */
-    float occlusion;                                 /* strength */
-    double error;                                    /* as WeftBaked.fitted */
+    MapOcclusion occlusion;
+    double error; /* as WeftBaked.fitted */
 } MapLevel;
 
 typedef struct MapLevels {

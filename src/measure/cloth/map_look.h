@@ -23,7 +23,7 @@ typedef struct MapLook {
     float anisotropy; /* factor on the alignment of fibres */
     float normal;     /* scale of the normal map */
     float metallic, specular, sheen[3], sheen_roughness;
-    float occlusion; /* strength of the occlusion map */
+    MapOcclusion occlusion;
 } MapLook;
 
 /* Finds the look of maps of a cloth for viewers that shade as the profile of a fit that has begun does, and sets *found.

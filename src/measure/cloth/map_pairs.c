@@ -24,6 +24,10 @@ static void add_lights(MapPairs *pairs, int normal) {
     }
 }
 
+Dir map_sky_in(int n, int count, int sky) {
+    return direction_of((sqrt)((n + 0.5) / count), halton(n + 1, 2) + halton(sky + 1, 7));
+}
+
 MapPairs map_pairs(void) {
     MapPairs pairs = {.first = {0}};
     for (int k = 0; k < MAP_NORMALS; k++) {
@@ -36,8 +40,7 @@ MapPairs map_pairs(void) {
         const int out = MAP_NORMALS + k, first = MAP_CONTRASTS + k * MAP_SKY_INS;
         pairs.o[out] = direction_of((sqrt)(1.0 - 0.933 * (k + 0.5) / MAP_SKIES), halton(k + 1, 3));
         pairs.first[out] = first;
-        for (int n = 0; n < MAP_SKY_INS; n++)
-            pairs.i[first + n] = direction_of((sqrt)((n + 0.5) / MAP_SKY_INS), halton(n + 1, 2) + halton(k + 1, 7));
+        for (int n = 0; n < MAP_SKY_INS; n++) pairs.i[first + n] = map_sky_in(n, MAP_SKY_INS, k);
     }
     pairs.first[MAP_OUTS] = MAP_PAIRS;
     return pairs;

@@ -24,6 +24,9 @@ typedef struct MapPairs {
 
 MapPairs map_pairs(void);
 
+/* Returns direction n of `count` under the sky, spread by the cosine, for wo number `sky`. */
+Dir map_sky_in(int n, int count, int sky);
+
 /* Returns the row of a pair, and the group of a row. */
 static inline int map_row(int pair) {
     return pair < MAP_CONTRASTS ? pair : MAP_CONTRASTS + (pair - MAP_CONTRASTS) / MAP_SKY_INS;
