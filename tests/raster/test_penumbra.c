@@ -203,13 +203,13 @@ static double off_by_point(float height) {
     return off / sum;
 }
 
-/* Above the walls; and between them, where the map has what lies below. Without shadows 20 % are off. */
+/* Above the walls, near them, and between them. Without shadows 20 % are off. */
 static void point_light_casts_the_path_tracers_shadow(void **state) {
     (void)state;
     need_gl();
     assert_true(off_by_point(2.5f) < 0.04);
     assert_true(off_by_point(0.8f) < 0.05);
-    assert_true(off_by_point(0.2f) < 0.13);
+    assert_true(off_by_point(0.2f) < 0.05);
 }
 
 int main(void) {

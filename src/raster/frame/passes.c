@@ -216,13 +216,13 @@ static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
     return result;
 }
 
-/* Draws all shadow maps, unless they are up to date. A polygon light has a map for each of `points` points on it; other
- * lights have points = 0 and one map. */
+/* Draws all shadow maps, unless they are up to date. A polygon light has a map for each of `points` points on it, a
+ * point light amid the scene one for each face of a cube, and others one map. */
 static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int k = 0; k < self->shadows.count && !self->shadows.drawn && result == WEFT_OK; k++) {
         const Shadow *shadow = &self->shadows.all[k];
-        for (int point = 0; point < (shadow->points ? shadow->points : 1) && result == WEFT_OK; point++) {
+        for (int point = 0; point < shadow_view_count(shadow) && result == WEFT_OK; point++) {
             Picture picture;
             picture_of_shadow(shadow, point, &picture);
             upload_picture(self, &picture);

@@ -53,11 +53,21 @@ static Box find_casters(const WeftScene *scene, const LightPolygon *polygon) {
     }
 }
 
+/* Returns depths that hold in all directions. least: the first of them, over the last. */
+static Depths depths_around(const WeftScene *scene, Vec3 eye, float least) {
+    const Box box = {scene->low, scene->high};
+    float far = 0.0f;
+    for (int k = 0; k < 8; k++) far = fmaxf(far, vec3_length(vec3_sub(box_corner(box, k), eye)));
+    far = 1.01f * (far + scene_hair_reach(scene)) + 1e-6f;
+    return (Depths){.near = least * far, .far = far};
+}
+
 /* Returns the depths of the scene and its lights from all points of a light, which look along one axis. With
  * perspective most of the precision is near the eye, so depths begin at 1e-2 of the distance to the farthest caster at
  * least, however far a stage reaches. */
 static Depths depths_of(const WeftScene *scene, const Shadow *shadow, Box casters) {
     const float least = 1e-2f;
+    if (shadow->faces) return depths_around(scene, shadow->view.eye, least);
     Depths all = depths_none(), here = depths_none();
     float back = 0.0f, front = 0.0f;
     depths_add_scene(&all, &shadow->view, scene);
@@ -109,11 +119,19 @@ static Shadow of_spot(const Light *light) {
     return with_perspective(light->position, light->direction, sqrtf(1.0f - cosine * cosine) / cosine * 1.02f);
 }
 
-/* The widest map of a light that sends light to all sides: half of its width at distance 1. */
+/* Half of the width of the widest map at distance 1. */
 static const float HALF_MOST = 6.0f;
 
-/* Returns the map of a point light towards the casters. It contains all of them, unless the light is among them: then it
- * has those within 80 degrees of their middle. */
+/* Returns a cube of maps about an eye, each a little wider than its face. */
+static Shadow with_faces(Vec3 eye) {
+    const float half = 1.01f;
+    return (Shadow){
+        .view = {.eye = eye, .forward = {0.0f, 0.0f, 1.0f}, .across = {-half, 0.0f, 0.0f}, .up = {0.0f, half, 0.0f}},
+        .texel = 2.0f * half / SHADOW_TILE,
+        .faces = SHADOW_FACES};
+}
+
+/* Returns the map of a point light: one view that has all casters, or a cube where that would be as coarse. */
 static Shadow of_point(const Light *light, Box casters) {
     const Vec3 down = {0.0f, -1.0f, 0.0f}, middle = vec3_scale(vec3_add(casters.low, casters.high), 0.5f);
     const Vec3 forward = vec3_normal_or(vec3_sub(middle, light->position), down);
@@ -125,7 +143,7 @@ static Shadow of_point(const Light *light, Box casters) {
         const float wide = fmaxf(fabsf(c.x), fabsf(c.y));
         half = fmaxf(half, c.z * HALF_MOST > wide ? 1.02f * wide / c.z : HALF_MOST);
     }
-    return with_perspective(light->position, forward, fminf(half, HALF_MOST));
+    return half < 3.0f ? with_perspective(light->position, forward, half) : with_faces(light->position);
 }
 
 static Shadow of_punctual(const Light *light, Box casters) {
@@ -229,8 +247,25 @@ static Shadow of_polygon(const LightPolygon *polygon, Box casters, int side) {
     return self;
 }
 
+int shadow_view_count(const Shadow *self) {
+    if (self->points) return self->points;
+    return self->faces ? self->faces : 1;
+}
+
+/* Returns a direction of the face along z as that of another face. */
+static Vec3 on_face(Vec3 v, int face) {
+    const Vec3 w = face % 2 ? vec3(-v.x, v.y, -v.z) : v;
+    const Vec3 turned[] = {{w.z, w.x, w.y}, {w.y, w.z, w.x}, w};
+    return turned[face / 2];
+}
+
 View shadow_view(const Shadow *self, int point) {
     View view = self->view;
+    if (self->faces) {
+        view.forward = on_face(view.forward, point);
+        view.across = on_face(view.across, point);
+        view.up = on_face(view.up, point);
+    }
     if (!self->points) return view;
     Vec3 o = self->point[point], right = vec3_normal_or(view.across, view.across),
          up = vec3_normal_or(view.up, view.up);
@@ -262,7 +297,7 @@ static void choose(const WeftScene *scene, const LightPolygons *polygons, Shadow
 
 static bool same_map(const Shadow *a, const Shadow *b) {
     bool same = memcmp(&a->view, &b->view, offsetof(View, orthographic)) == 0 &&
-                a->view.orthographic == b->view.orthographic && a->points == b->points;
+                a->view.orthographic == b->view.orthographic && a->points == b->points && a->faces == b->faces;
     for (int k = 0; k < a->points && same; k++)
         same = a->point[k].x == b->point[k].x && a->point[k].y == b->point[k].y && a->point[k].z == b->point[k].z;
     return same && a->meeting == b->meeting && a->depths.near == b->depths.near && a->depths.far == b->depths.far;
@@ -328,13 +363,14 @@ void shadows_destroy(Shadows *self) {
 void shadows_begin(const Shadows *self, int k, int point) {
     static const GLenum none = GL_NONE;
     const int hard = self->count - self->polygons, layer = k < hard ? k : SHADOW_POINTS * (k - hard) + point;
-    const int side = k < hard ? SHADOW_SIDE : self->point_side;
+    const bool tiled = self->all[k].faces > 0;
+    const int side = tiled ? SHADOW_TILE : k < hard ? SHADOW_SIDE : self->point_side;
     glBindFramebuffer(GL_FRAMEBUFFER, self->framebuffer);
     glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, k < hard ? self->hard : self->soft, 0, layer);
     glDrawBuffers(1, &none);
     glReadBuffer(GL_NONE);
-    glViewport(0, 0, side, side);
-    glClear(GL_DEPTH_BUFFER_BIT);
+    glViewport(tiled ? point % 3 * side : 0, tiled ? point / 3 * side : 0, side, side);
+    if (!tiled || point == 0) glClear(GL_DEPTH_BUFFER_BIT);
 }
 
 static void bind(unsigned texture, unsigned sampler, int unit) {

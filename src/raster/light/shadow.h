@@ -13,10 +13,14 @@
 /* Texels along the side of a map, and of each of a polygon's if it is the only one. Several share the memory of one. */
 enum { SHADOW_SIDE = 2048, SHADOW_POINT_SIDE = 512 };
 
+/* A point light amid the scene has a cube of maps, as tiles of its one map: three in a row, of so many texels a side. */
+enum { SHADOW_FACES = 6, SHADOW_TILE = SHADOW_SIDE / 3 };
+
 /* The shadow map of a light. */
 typedef struct Shadow {
     View view;                 /* of the light, with the map in [-1, 1]^2; of a polygon from its middle */
     float texel;               /* width of a texel, m; of a view with perspective at distance 1 */
+    int faces;                 /* SHADOW_FACES for a light amid the scene, of which view is that along z, else 0 */
     int points;                /* SHADOW_POINTS for a polygon, else 0 */
     Vec3 point[SHADOW_POINTS]; /* from the eye, m: along across, up and forward */
     float meeting;             /* 1 / distance of the plane that all maps have at the same place, 1/m; 0: far */
@@ -53,11 +57,15 @@ Vec3 shadow_point_on(const LightPolygon *polygon, float u, float v);
  * maps have the plane `meeting` at the same place. */
 float shadow_slope(const Shadow *shadow, int point);
 
-/* Returns the view of the map of a point of a polygon, or the one view of another light. The axis is that of the
- * middle's view; the view is sheared by shadow_slope. */
+/* Returns how many views the map of a light has: of points of a polygon, of faces of a cube, or one. */
+int shadow_view_count(const Shadow *shadow);
+
+/* Returns a view of a map. Those of points of a polygon have the axis of the middle's view and are sheared by
+ * shadow_slope; face k of a cube looks along axis k / 2, of odd k backwards, as glsl/shadow.glsl finds it. */
 View shadow_view(const Shadow *shadow, int point);
 
-/* Binds the map of shadow `k` from a point as the framebuffer and clears it. */
+/* Binds the map of shadow `k` from a point as the framebuffer and clears it; of a cube, a face's tile, and with the first
+ * face all are cleared. */
 void shadows_begin(const Shadows *shadows, int k, int point);
 
 /* Binds the textures to two units, for comparing look-ups. */
