@@ -7,7 +7,12 @@
 #include "raster/gl.h"
 #include "trace/scenes.h"
 
-enum { WIDTH = 96, HEIGHT = 64 };
+/* Pixels, whole blocks of 8; a file may ask for fewer before it includes this one. */
+#ifndef SUMS_WIDTH
+#define SUMS_WIDTH  96
+#define SUMS_HEIGHT 64
+#endif
+enum { WIDTH = SUMS_WIDTH, HEIGHT = SUMS_HEIGHT };
 
 /* The sums of the absolute differences over the sum of the path traced picture. */
 typedef struct Off {

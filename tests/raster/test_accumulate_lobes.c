@@ -10,9 +10,11 @@
 
 #include <cmocka.h>
 
+#define SUMS_WIDTH  72
+#define SUMS_HEIGHT 48
 #include "raster/sums.h"
 
-enum { FRAMES = 64, SPP = 1024 };
+enum { FRAMES = 64, SPP = 512 };
 
 static const WeftRasterView view = {
     .width = WIDTH, .height = HEIGHT, .camera = "0,1.1,3.2;0,0,0;24", .background = WEFT_BACKGROUND_TRANSPARENT};
