@@ -1,7 +1,9 @@
 /* Both engines weave the same cloth: near by pixel for pixel, and from afar as bright on the mean. At every distance the
  * pixels of the raster engine are as bright as those of many points of threads, and vary as they do.
  *
- * Labels: slow */
+ * Numbers of many points are compared here; raster/motion, raster/backs and weave/cloth draw and shade cloth under sanitizers.
+ *
+ * Labels: slow unsanitized */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
