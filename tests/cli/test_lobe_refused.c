@@ -138,16 +138,18 @@ static void damaged_library_in_the_cache_is_made_anew(void **state) {
                                           "dd if=/dev/zero of=$F bs=4096 seek=1 count=1 conv=notrunc 2>/dev/null",
                                           "cp /bin/true $F; chmod 700 $F"};
     char line[1000];
+    done(CACHE "echo 60 0 30 40 >asked; $0 eval toy asked --lobe " TOY " >good && echo well", 0, "well");
     for (size_t k = 0; k < sizeof damages / sizeof *damages; k++) {
         snprintf(line, sizeof line,
-                 CACHE "echo 60 0 30 40 >asked; E='timeout 60 $0 eval toy asked --lobe " TOY "'; "
-                       "eval $E >good && F=$(ls cache/weft/*.so) && { %s; } && "
-                       "eval $E >now 2>told && cmp good now && [ -f $F ] && [ ! -L $F ] && "
-                       "PATH=/nowhere $0 eval toy asked --lobe " TOY " >now 2>told && "
-                       "cmp good now && [ ! -s told ] && echo well; e=$?; rm -rf cache asked good now told; exit $e",
+                 "export XDG_CACHE_HOME=$PWD/cache; F=$(ls cache/weft/*.so) && { %s; } && "
+                 "timeout 60 $0 eval toy asked --lobe " TOY
+                 " >now 2>told && cmp good now && [ -f $F ] && [ ! -L $F ] && "
+                 "PATH=/nowhere $0 eval toy asked --lobe " TOY " >now 2>told && "
+                 "cmp good now && [ ! -s told ] && echo well",
                  damages[k]);
         done(line, 0, "well");
     }
+    done("rm -r cache asked good now told", 0, "");
 }
 
 /* A library that cannot be kept, since a folder is in its place, is used all the same. */

@@ -240,7 +240,7 @@ static void closing_asks_if_changes_are_not_saved(void **state) {
     assert_int_equal(sessions_kept(".json", NULL), 0);
 
     script_begin();
-    say("wait rest\nset \"Material/sheen roughness\" 0.7\nwait seconds 3\n");
+    say("wait rest\nset \"Material/sheen roughness\" 0.7\nwait session\n");
     say("close\nwait 3\nclick \"Unsaved changes/Cancel\"\nwait 3\n");
     say("key control+q\nwait 3\nkey escape\nwait 3\n");
     say("drop builtin:cloth\nwait 3\nwindow asks.png\nkey escape\nwait rest\nwindow stays.png\n");
@@ -255,7 +255,7 @@ static void closing_asks_if_changes_are_not_saved(void **state) {
     assert_int_equal(sessions_kept(".lock", NULL), 0);
 
     /* What is discarded is gone, and undo leaves nothing to ask. */
-    drive_through("wait rest\nset \"Material/sheen roughness\" 0.7\nwait seconds 3\nkey control+q\nwait 3\nkey d\n"
+    drive_through("wait rest\nset \"Material/sheen roughness\" 0.7\nwait session\nkey control+q\nwait 3\nkey d\n"
                   "wait 600\nwindow late.png\n",
                   LIST(REMEMBERS, "scene.gltf"));
     drive_through("wait rest\nset \"Material/sheen roughness\" 0.7\nwait 5\nkey control+z\nwait 3\nclose\nwait 600\n"
@@ -270,7 +270,7 @@ static void opening_another_scene_asks_too(void **state) {
     need_gl();
     scene_make();
     script_begin();
-    say("wait rest\nset \"Material/sheen roughness\" 0.7\nwait seconds 3\ndrop builtin:cloth\nwait 3\n");
+    say("wait rest\nset \"Material/sheen roughness\" 0.7\nwait session\ndrop builtin:cloth\nwait 3\n");
     say("click \"Unsaved changes/Discard\"\nwait message builtin:cloth\nwait rest\nstay\n");
     Drive drive = drive_start(script, LIST(REMEMBERS, "scene.gltf", "--occlusion", "0"));
     json_t *later = drive_until(&drive, "scene", "builtin:cloth");
