@@ -10,6 +10,8 @@
 #include "cli/render/picture_words.h"
 #include "weft/render.h"
 
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
 static WeftRender *render;
 
 /* Makes a render of one tile that records all that there is. */

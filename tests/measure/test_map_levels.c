@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -43,6 +44,7 @@ static MapLevels levels_of(const WeftCloth *cloth, const char *profile, bool hol
     MapLevels levels;
     WeftMaterial material;
     WeftError error;
+    memset(&levels, 0, sizeof levels);
     weft_material_default(&material);
     material.alpha_mode = holed ? WEFT_ALPHA_BLEND : WEFT_ALPHA_OPAQUE;
     grid.weave.cycle_x = grid.weave.cycle_y = 4.0f;
