@@ -1,5 +1,5 @@
-/* The flat text of each fourth value of every choice, in long runs of all, draws the picture of the text as it is written, and so does that of
- * woven cloth, near and from afar.
+/* The flat text of each seventh value of every choice, in long runs of all, draws the picture of the text as it is
+ * written, and so does that of woven cloth, near and from afar.
  *
  * Labels: slow unsanitized */
 #include "raster/flat.h"
@@ -7,7 +7,7 @@
 static void flat_texts_of_choices_draw_the_same_pictures(void **state) {
     (void)state;
     need_gl();
-    expect_same_pictures_of_choices(test_long() ? 1 : 4);
+    expect_same_pictures_of_choices(test_long() ? 1 : 7);
 }
 
 static void flat_texts_of_woven_cloth_draw_the_same_pictures(void **state) {
