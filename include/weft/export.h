@@ -12,6 +12,7 @@
  *   of a lobe       ID_eval (colour times f), ID_pdf, ID_sample, ID_default, ID_rough; on request ID_albedo, and
  *                   ID_ambient, ID_ambient_axis, ID_ambient_kappa for the light of an environment map
  *   of a material   NAME_surface (its numbers), NAME_shade (f times the cosine)
+ *   of a cloth      NAME_see too: what a point of a pixel sees of its threads, which NAME_shade takes
  *
  * Textures, normal maps, emission, environments and area lights are left to the engine. */
 #ifndef WEFT_EXPORT_H
@@ -22,6 +23,7 @@
 #include "weft/image.h"
 #include "weft/lobe.h"
 #include "weft/material.h"
+#include "weft/weave.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -76,6 +78,8 @@ typedef struct WeftExportDesc {
     const char *prefix;           /* of every name: a C identifier, 24 characters at most; NULL: weft_, in C weftx_ */
     const char *call;             /* the command that made the text, for its first lines; may be NULL */
     int ambient;                  /* not 0: with ID_ambient of a lobe, the light of a map, and ID_albedo */
+    const WeftCloth *cloth;       /* the cloth of the material, threads near by and a lobe from afar; NULL: the material
+                                     is not woven, or its weave is left out */
 } WeftExportDesc;
 
 /* The most models and tables of a text, and the size of a name with its zero. */
@@ -97,7 +101,8 @@ typedef struct WeftExport {
 } WeftExport;
 
 /* Makes a text. Fails with WEFT_MESSAGE_EXPORT_LOBE (a lobe that is a random walk), _CHECK_NAME (no such
- * profile), _DESC (also of a lobe that `ambient` is not for) or _MEMORY; *out is then zero. A table of E takes up to seconds. */
+ * profile), _DESC (also of a lobe that `ambient` is not for, and of a draft too large for the target's tables) or
+ * _MEMORY; *out is then zero. A table of E takes up to seconds. */
 WEFT_API WeftResult weft_export(const WeftExportDesc *desc, WeftExport *out, WeftError *error);
 
 /* Makes one text of `count` models, 1 to WEFT_EXPORT_MODELS_MAX, of one target, lut, prefix and fold_pi. Code that

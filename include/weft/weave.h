@@ -173,6 +173,10 @@ typedef struct WeftClothInfo {
  * draft is owned by the scene. NULL where there is none of that number. */
 WEFT_API const WeftDraft *weft_scene_cloth(const WeftScene *scene, int cloth, WeftYarn yarns[2]);
 
+/* Copies a cloth of a scene by its number, WeftMaterial.cloth: release it with weft_cloth_free. Fails with
+ * WEFT_MESSAGE_DESC (there is none of that number) or _MEMORY; *out is then NULL. */
+WEFT_API WeftResult weft_scene_cloth_copy(const WeftScene *scene, int cloth, WeftCloth **out, WeftError *error);
+
 /* Weaves a new cloth for a material, of another draft and other yarns. Its earlier cloth stays in the scene, since
  * other materials and copies of this one may have it. Fails with WEFT_MESSAGE_DESC (the material is not woven, or a
  * yarn's number is out of range), _MATERIAL_FILE (too many crossings) or _MEMORY; the scene is then as it was. */

@@ -604,6 +604,7 @@ class WeftExportDesc(Structure):
         ("fold_pi", c_int),
         ("prefix", c_char_p),
         ("call", c_char_p),
+        ("cloth", c_void_p),
     ]
 
 
@@ -1744,6 +1745,7 @@ CALLS = {
     "weft_cloth_create": (c_int, (c_void_p, c_void_p, c_uint, c_void_p, POINTER(WeftError),)),
     "weft_cloth_free": (None, (c_void_p,)),
     "weft_scene_cloth": (c_void_p, (c_void_p, c_int, c_void_p,)),
+    "weft_scene_cloth_copy": (c_int, (c_void_p, c_int, c_void_p, POINTER(WeftError),)),
     "weft_scene_set_weave": (c_int, (c_void_p, c_int, c_void_p, c_void_p, POINTER(WeftError),)),
     "weft_scene_weave": (c_int, (c_void_p, c_char_p, c_char_p, c_char_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_scene_weave_text": (c_void_p, (c_void_p, c_int,)),

@@ -1,15 +1,17 @@
 /* ball.c - the picture of a Shadertoy: a lit ball for one model, or two halves for two lobes
  *
  * The picture is our own work. The mouse moves one light; a second, faint one behind the ball shows the rim. Both are
- * distant. Tone: sRGB of the radiance, clamped. */
+ * distant. Tone: sRGB of the radiance, clamped. The mouse takes a cloth nearer or further away instead. */
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "export/draft.h"
 
 #include "text/passes/types.h"
+#include "text/source/number_text.h"
+#include "weave/cloth_base.h"
 
-static const char scene[] =
+static const char scene_begin[] =
     "/* A ball fills most of the picture's height, or of its half. Radiance towards the viewer, of\n"
     " * one distant light of irradiance `light`. */\n"
     "vec3 lit(bool right, float roughness, vec3 n, vec3 v, vec3 l, vec3 light) {\n"
@@ -28,7 +30,9 @@ static const char scene[] =
     "    vec2 size = vec2(halves ? 0.5 : 1.0, 1.0) * iResolution.xy;\n"
     "    vec2 q = (at - vec2(right ? size.x : 0.0, 0.0) - 0.5 * size) / (0.44 * min(size.x, size.y));\n"
     "    vec3 color = vec3(0.022 + 0.02 * at.y / iResolution.y);\n"
-    "    if (dot(q, q) < 1.0) {\n"
+    "    if (dot(q, q) < 1.0) {\n";
+
+static const char scene_end[] =
     "        vec3 n = vec3(q, sqrt(1.0 - dot(q, q))), v = vec3(0.0, 0.0, 1.0);\n"
     "        color = lit(right, roughness, n, v, l, sun) +\n"
     "                lit(right, roughness, n, v, normalize(vec3(-0.5, 0.3, -0.8)), 0.4 * sun);\n"
@@ -56,6 +60,17 @@ static void put_lobe(const Draft *draft, const WeftLobe *lobe, const char *id, c
              named(draft, ITEM_FUNCTION, id, "_eval", eval), two ? "vec3(1.0), " : "");
 }
 
+/* Writes the statements that see a cloth, whose threads lie on the ball as seen from the front: the mouse goes from 8 of
+ * them between its middle and its rim to 400. */
+static void put_seen(const Draft *draft, Buffer *out) {
+    char record[SPELL_NAME], see[SPELL_NAME];
+    put_line(out, "    float per = 8.0 * pow(50.0, roughness) / %s;",
+             number(cloth_placing(draft->desc->cloth).warps).text);
+    put_line(out, "    %s seen = %s(s, spot.x * per, -spot.y * per, spot.z * per, 0.0, 0.0, spot.z * per, 1);",
+             spell_name(&draft->speller, ITEM_RECORD, "WeaveSeen", record),
+             named(draft, ITEM_FUNCTION, draft->id[0], "_see", see));
+}
+
 void draft_ball(const Draft *draft, Buffer *out) {
     const WeftExportDesc *desc = draft->desc;
     char record[SPELL_NAME], make[SPELL_NAME], shade[SPELL_NAME];
@@ -64,6 +79,7 @@ void draft_ball(const Draft *draft, Buffer *out) {
     put_line(out, "const vec3 cloth = vec3(0.82, 0.3, 0.24); /* colour of the cloth */");
     put_line(out, "const vec3 sun = vec3(%s);", desc->fold_pi ? "1.0" : "3.14159265");
     put_line(out, "const bool halves = %s;", halves ? "true" : "false");
+    if (desc->cloth) put_line(out, "vec3 spot; /* the place on the ball, and the width of a pixel there */");
     put_line(out, "\n/* Shades with the model of the left or of the right half. */");
     put_line(out, "vec3 shown(bool right, float roughness, vec3 wo, vec3 wi) {");
     if (halves) {
@@ -77,10 +93,14 @@ void draft_ball(const Draft *draft, Buffer *out) {
         put_line(out, "    %s s = %s();", spell_name(&draft->speller, ITEM_RECORD, "Surface", record),
                  named(draft, ITEM_FUNCTION, draft->id[0], "_surface", make));
         if (desc->profile) draft_ball_inputs(draft, out);
-        put_line(out, "    return %s(s, wo, wi);", named(draft, ITEM_FUNCTION, draft->id[0], "_shade", shade));
+        if (desc->cloth) put_seen(draft, out);
+        put_line(out, "    return %s(s, %swo, wi);", named(draft, ITEM_FUNCTION, draft->id[0], "_shade", shade),
+                 desc->cloth ? "seen, " : "");
     }
     put_line(out, "}\n");
-    buffer_put_text(out, scene);
+    buffer_put_text(out, scene_begin);
+    if (desc->cloth) put_line(out, "        spot = vec3(q, 1.0 / (0.44 * min(size.x, size.y)));");
+    buffer_put_text(out, scene_end);
 }
 
 /* Writes inputs of a cloth of two colours, whose roughness the mouse sets; an engine's defaults have no sheen. */

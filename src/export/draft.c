@@ -33,6 +33,7 @@ void draft_begin(Draft *draft, const WeftExportDesc *desc, DraftTables *tables) 
 
 void draft_free(Draft *draft) {
     for (int k = 0; k < draft->albedo_count; k++) free(draft->albedos[k]);
+    free(draft->colors);
     items_free(&draft->items);
     buffer_free(&draft->folded);
     text_free(&draft->text);
@@ -84,13 +85,18 @@ static void take_tables(Draft *draft) {
     }
 }
 
+/* Returns true for the members of records that name a table. */
+static bool names_table(Token token) {
+    return token_is(token, "texels") || token_is(token, "runs") || token_is(token, "albedos");
+}
+
 /* Marks the tables that kept items read, by statements such as "t.texels = 3;". */
 static void find_used(Draft *draft) {
     for (int k = 0; k < draft->items.count; k++) {
         const Item *item = &draft->items.all[k];
         const char *c = item->code;
         for (Token token; item->kept && (token = token_solid(&c, item->end)).kind != TOKEN_NONE;) {
-            if (!token_is(token, "texels") || !token_is(token_solid(&c, item->end), "=")) continue;
+            if (!names_table(token) || !token_is(token_solid(&c, item->end), "=")) continue;
             token = token_solid(&c, item->end);
             long layer = token.kind == TOKEN_NUMBER ? strtol(token.at, NULL, 10) : -1;
             if (layer >= 0 && layer < draft->tables->count) draft->tables->used[layer] = true;

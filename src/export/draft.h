@@ -27,6 +27,7 @@ typedef struct Draft {
     FoldFact facts[DRAFT_FACTS];         /* constants that fold conditions of the text */
     AlbedoTable *albedos[DRAFT_ALBEDOS]; /* owned; text.tables points into them */
     char albedo_names[DRAFT_ALBEDOS][SPELL_NAME];
+    float *colors; /* of a cloth from afar, as a table; owned; text.tables points to it */
     int root_count, fact_count, albedo_count;
     char id[2][DRAFT_ID]; /* identifier of a material, or of a lobe and of that on the right */
     DraftTables *tables;  /* of this draft and those before it; borrowed */
@@ -69,6 +70,13 @@ void draft_ambient(Draft *draft, const WeftLobe *lobe);
 
 /* Adds the functions of a profile, a workflow or a material. */
 WeftResult draft_material(Draft *draft, WeftError *error);
+
+/* Adds the functions by which a text sees the cloth of its description: its numbers and tables, where it lies, its lobes
+ * from afar, and ID_see. */
+void draft_cloth(Draft *draft);
+
+/* Fails if the target cannot hold the tables of all drafts. */
+WeftResult draft_tables_fit(const Draft *draft, WeftError *error);
 
 /* Writes the tables of all drafts in the target's language: samplers or arrays, and the function that reads a texel. */
 void draft_tables(const Draft *draft, Buffer *out);

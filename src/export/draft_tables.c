@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include "export/draft.h"
+
+#include "base/fail.h"
 #include "text/source/number_text.h"
 
 /* The most elements of a WGSL array expression: "WebGPU Shading Language", section 2.3. */
@@ -11,6 +13,13 @@ enum { WGSL_ARRAY = 2047 };
 
 /* The most elements of all indexed arrays of constants in Direct3D 11: the size of a shader's immediate constant buffer. */
 enum { HLSL_ARRAYS = 4096 };
+
+/* The most numbers of all tables in a text: what a Shadertoy compiles, and of C ten megabytes. */
+enum { TOY_TEXELS = 8192, C_TEXELS = 1 << 20 };
+
+/* The longest side of a texture: "WebGPU", section 3.6.2; Direct3D 11, "Resource Limits". Drivers of OpenGL have the
+ * second. */
+enum { WGSL_SIDE = 8192, TEXTURE_SIDE = 16384 };
 
 static int size_of(const TextTable *t) { return t->rows * t->columns; }
 
@@ -180,6 +189,33 @@ void draft_tables(const Draft *draft, Buffer *out) {
     for (int k = 0; k < draft->tables->count; k++)
         if (draft->tables->used[k]) put_fetch(draft, k, k == last, out);
     put_line(out, "}\n");
+}
+
+static const char *title(const Draft *draft) {
+    const WeftExportDesc *desc = draft->desc;
+    return desc->name ? desc->name : desc->profile ? desc->profile : weft_export_target_name((int)desc->target);
+}
+
+WeftResult draft_tables_fit(const Draft *draft, WeftError *error) {
+    const WeftExportTarget target = draft->desc->target;
+    const int most = target == WEFT_EXPORT_SHADERTOY ? TOY_TEXELS : C_TEXELS;
+    const int side = target == WEFT_EXPORT_WGSL ? WGSL_SIDE : TEXTURE_SIDE;
+    long long inside = 0;
+    for (int k = 0; k < draft->tables->count; k++) {
+        const TextTable *t = &draft->tables->all[k];
+        if (!draft->tables->used[k]) continue;
+        if (in_text(draft, k))
+            inside += (long long)t->rows * t->columns;
+        else if (target != WEFT_EXPORT_C && (t->columns > side || t->rows > side))
+            return fail(error, WEFT_MESSAGE_DESC, title(draft),
+                        "a texture of %d x %d texels (%s), where %s has at most %d a side: take a smaller draft",
+                        t->columns, t->rows, t->name, weft_export_target_name((int)target), side);
+    }
+    if (inside <= most) return WEFT_OK;
+    return fail(error, WEFT_MESSAGE_DESC, title(draft), "tables of %lld numbers, where a text for %s holds %d: %s",
+                inside, weft_export_target_name((int)target), most,
+                target == WEFT_EXPORT_C ? "put them beside it with --lut exr"
+                                        : "take another target, or a smaller draft");
 }
 
 WeftResult draft_uploads(const Draft *draft, WeftExport *out, WeftError *error) {

@@ -58,6 +58,8 @@ static WeftResult check(const WeftExportDesc *desc, WeftError *error) {
         return fail(error, WEFT_MESSAGE_DESC, model, "a second lobe is for shadertoy, beside a first");
     if (desc->ambient && (!desc->lobe || desc->target == WEFT_EXPORT_SHADERTOY))
         return fail(error, WEFT_MESSAGE_DESC, model, "the light of a map is for a lobe, and not for shadertoy");
+    if (desc->cloth && !desc->material)
+        return fail(error, WEFT_MESSAGE_DESC, model, "a cloth is that of a material, which is needed too");
     WeftResult result = desc->lobe ? check_lobe(desc->lobe, error) : WEFT_OK;
     return result == WEFT_OK && desc->right ? check_lobe(desc->right, error) : result;
 }
@@ -103,6 +105,18 @@ static void put_guard(const Draft *draft, bool open, Buffer *out) {
         put_line(out, "\n#endif");
 }
 
+/* Declares the precision of hashes, of which fragment shaders of GLSL ES keep 16 bits otherwise. */
+static void put_precision(const Draft *drafts, int count, Buffer *out) {
+    const Token hash = {TOKEN_NAME, "uint", 4};
+    bool found = false;
+    for (int d = 0; d < count; d++)
+        for (int k = 0; k < drafts[d].items.count; k++) {
+            const Item *item = &drafts[d].items.all[k];
+            found |= item->kept && token_found(item->code, item->end, hash);
+        }
+    if (found && drafts->desc->target == WEFT_EXPORT_ESSL) put_line(out, "precision highp int;\n");
+}
+
 static void put_all(Draft *drafts, int count, const WeftExport *uploads, Buffer *out) {
     const Items *texts[WEFT_EXPORT_MODELS_MAX];
     const Token fetch = {TOKEN_NAME, "table_fetch", 11}; /* the function that draft_tables replaces */
@@ -114,6 +128,7 @@ static void put_all(Draft *drafts, int count, const WeftExport *uploads, Buffer 
     drafts_merge(drafts, count);
     drafts_head(drafts, count, uploads, out);
     put_guard(drafts, true, out);
+    put_precision(drafts, count, out);
     draft_tables(drafts, out);
     spell_helpers(&drafts->speller, texts, count, out);
     drafts_spell(drafts, count, out);
@@ -165,6 +180,7 @@ WeftResult weft_export_all(const WeftExportDesc *descs, int count, WeftExport *o
     for (int k = 0; k < count; k++) drafts[k].desc = &descs[k];
     draft_begin(drafts, descs, &tables);
     result = make_drafts(drafts, count, error);
+    if (result == WEFT_OK) result = draft_tables_fit(drafts, error);
     if (result == WEFT_OK) result = draft_uploads(drafts, out, error);
     if (result == WEFT_OK) {
         put_all(drafts, count, out, &text);

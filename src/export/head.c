@@ -4,6 +4,8 @@
 #include "base/printable.h"
 #include "export/draft.h"
 
+#include "weave/cloth_base.h"
+
 /* Returns the target's type for a direction. */
 static const char *vector(const Draft *draft) {
     if (draft->desc->target == WEFT_EXPORT_WGSL) return "vec3f";
@@ -46,6 +48,31 @@ static void put_conventions(const Draft *draft, Buffer *out) {
                  " * one picture.\n");
 }
 
+/* Writes the line that sees a cloth. */
+static void put_seen(const Draft *draft, Buffer *out) {
+    char record[SPELL_NAME], name[SPELL_NAME];
+    spell_item(&draft->speller, &draft->items, ITEM_RECORD, "WeaveSeen", record);
+    put_line(out, " *   %s seen = %s(s, uv.x, uv.y, dx.x, dx.y, dy.x, dy.y, 1); // once for all lights",
+             word(draft, record), function(draft, "see", name));
+}
+
+/* Says where a cloth lies, and what of it the text leaves out. */
+static void put_cloth(const Draft *draft, Buffer *out) {
+    const WeavePlacing p = cloth_placing(draft->desc->cloth);
+    put_line(
+        out,
+        " *\n * Cloth: a unit of u spans %g warp threads and a unit of v %g picks; scale uv to change that. v runs",
+        (double)p.warps, (double)p.picks);
+    put_line(out,
+             " * down and +y of the frame against it, as in glTF. dx and dy are the steps of uv to the next pixel,");
+    put_line(out,
+             " * as dFdx(uv) and dFdy(uv). A pixel of one point goes over to the cloth from afar from 0.25 threads");
+    put_line(out,
+             " * on; where you average several points of a pixel, give their number in place of 1: then from 0.85.");
+    put_line(out, " * seen.covers is the part that threads cover: light of gaps is black, so blend it premultiplied.");
+    put_line(out, " * Left out: the back, where the front's threads are seen; hair and normal maps of the mesh.");
+}
+
 static void put_call(const Draft *draft, Buffer *out) {
     char a[SPELL_NAME], b[SPELL_NAME], record[SPELL_NAME];
     const WeftExportDesc *desc = draft->desc;
@@ -65,9 +92,10 @@ static void put_call(const Draft *draft, Buffer *out) {
         spell_item(&draft->speller, &draft->items, ITEM_RECORD, "Surface", record);
         put_line(out, " *   %s s = %s();", desc->target == WEFT_EXPORT_WGSL ? "var" : record,
                  function(draft, "surface", a));
-        put_line(out, " *   %s f_cos = %s(s, wo, wi); // times the light",
+        if (desc->cloth) put_seen(draft, out);
+        put_line(out, " *   %s f_cos = %s(s, %swo, wi); // times the light",
                  c ? spell_name(&draft->speller, ITEM_RECORD, "Rgb", record) : word(draft, type),
-                 function(draft, "shade", b));
+                 function(draft, "shade", b), desc->cloth ? "seen, " : "");
         return;
     }
     bool two = weft_lobe_info(desc->lobe->lobe)->traits & WEFT_LOBE_TWO_COLORS;
@@ -205,6 +233,8 @@ void drafts_head(const Draft *drafts, int count, const WeftExport *uploads, Buff
     put_line(out, " * Copyright (c) 2026 The weft maintainers");
     put_conventions(drafts, out);
     for (int k = 0; k < count; k++) put_call(&drafts[k], out);
+    for (int k = 0; k < count; k++)
+        if (drafts[k].desc->cloth) put_cloth(&drafts[k], out);
     put_engines(drafts, out);
     put_tables(uploads, drafts->desc->target == WEFT_EXPORT_WGSL, out);
     put_line(out, " */");

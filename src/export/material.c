@@ -11,6 +11,7 @@
 #include "text/assemble/composition.h"
 #include "text/assemble/tables.h"
 #include "text/source/number_text.h"
+#include "weave/weft_cloth.h"
 
 typedef struct Rule {
     const char *id, *base, *needs_wi, *needs_average, *by;
@@ -29,6 +30,7 @@ typedef struct ExportModel {
     bool chosen;            /* a choice is made beside the profile */
     CompositionSlots slots;
     AlbedoTable *table; /* of E of the sheen; NULL: the text reads none */
+    bool woven, bare;   /* the base is a cloth; nothing is above it */
 } ExportModel;
 
 /* Makes the material of a profile or workflow by id. */
@@ -79,7 +81,10 @@ static void find_facts(Draft *draft, ExportModel *model) {
     model->one_layer = layer;
     if (layer) draft_fact(draft, "m.layer", m[0].layer);
     if (by) draft_fact(draft, "m.combine", m[0].combine);
-    if (under) draft_fact(draft, "m.base_fresnel", m[0].base_fresnel);
+    if (draft->desc->cloth)
+        draft_fact(draft, "m.base_fresnel", BASE_FRESNEL_NONE);
+    else if (under)
+        draft_fact(draft, "m.base_fresnel", m[0].base_fresnel);
     if (view) draft_fact(draft, "m.view", m[0].view);
     if (coat) draft_fact(draft, "m.coat_rule", m[0].coat_rule);
     if (albedo && !layer_needs_average(c->layer)) /* such a rule may change it on the way */
@@ -87,12 +92,28 @@ static void find_facts(Draft *draft, ExportModel *model) {
 #define CHOICE_FACT(name, help) draft_fact(draft, "c." #name, c->name);
     SURFACE_CHOICES(CHOICE_FACT)
 #define SHOWN_FACT(name, NAME, Name, wo) draft_fact(draft, "only." #name, 1);
-    SLOTS(SHOWN_FACT)
+    if (!draft->desc->cloth) { /* a cloth's base and the layers above it are evaluated one by one */
+        SLOTS(SHOWN_FACT)
+    }
     Choices beside = *c;
     beside.workflow = beside.profile = CHOICE_AUTO;
     if (!convert_wanted(*c)) beside.convert = CHOICE_AUTO;
 #define CHOICE_MADE(name, help) model->chosen |= beside.name != CHOICE_AUTO;
     SURFACE_CHOICES(CHOICE_MADE)
+}
+
+/* Finds the slots. Under the layers above a cloth a white Lambert lobe stands for it, which the cloth then replaces. */
+static void find_slots(const Draft *draft, ExportModel *model) {
+    CompositionSlots *found = &model->slots;
+    *found = composition_slots(&model->choices, model->zero, false);
+    model->woven = draft->desc->cloth != NULL;
+    if (!model->woven) return;
+    found->slots[PLACE_DIFFUSE] = (TextSlot){.lobes = {LOBE_LAMBERT}, .count = 1};
+    found->slots[PLACE_SPECULAR].count = 0;
+    found->glass = found->retro = false;
+    found->transmits &= !model->zero[INPUT_diffuse_transmission];
+    model->bare = !found->slots[PLACE_SHEEN].count && !found->slots[PLACE_COAT].count && !found->transmits &&
+                  model->zero[INPUT_dust];
 }
 
 static WeftResult find_model(Draft *draft, ExportModel *model, WeftError *error) {
@@ -109,7 +130,7 @@ static WeftResult find_model(Draft *draft, ExportModel *model, WeftError *error)
         if (is_walk(chosen[k])) return fail(error, WEFT_MESSAGE_EXPORT_LOBE, weft_lobe_info(chosen[k])->id, NULL);
     find_zeros(draft, model);
     find_facts(draft, model);
-    model->slots = composition_slots(&model->choices, model->zero, false);
+    find_slots(draft, model);
     draft_identifier(desc->profile ? desc->profile : desc->name ? desc->name : "material", draft->id[0]);
     return WEFT_OK;
 }
@@ -176,21 +197,17 @@ static void put_surface(Draft *draft, const ExportModel *model) {
     draft_root(draft, "%s_surface", draft->id[0]);
 }
 
-static void put_shade(Draft *draft, const ExportModel *model) {
+/* Writes the statements that make the stack m and its view w from wo. */
+static void put_stack(Draft *draft, const ExportModel *model) {
     Text *text = &draft->text;
-    bool coat = model->slots.slots[PLACE_COAT].count > 0, through = model->slots.transmits;
-    text_line(text,
-              "\n/* f%s times the cosine of wi, each channel; %s. */\n"
-              "Rgb %s_shade(Surface s, Dir wo, Dir wi) {\n"
-              "    if (wo.z <= 0.0%s) return rgb_grey(0.0);",
-              draft->desc->fold_pi ? " times pi" : "",
-              through ? "below the horizon, of the light that comes through" : "black below the horizon", draft->id[0],
-              through ? "" : " || wi.z <= 0.0");
     if (convert_wanted(model->choices)) text_line(text, "    s = convert_surface(s, material_choices());");
     if (model->chosen) text_line(text, "    compose_surface(s, material_choices());");
     text_line(text, "    Stack m;\n    stack_clear(m);\n    %s;", composition_stack(&model->choices));
     if (model->chosen) text_line(text, "    compose_choices(m, s, material_choices());");
-    if (through) text_line(text, "    stack_split_diffuse(m);");
+    if (model->woven)
+        text_line(text, "    compose_base(m, lobe_default(LOBE_LAMBERT), rgb_grey(1.0), rgb_grey(1.0));");
+    else if (model->slots.transmits)
+        text_line(text, "    stack_split_diffuse(m);");
     if (!model->zero[INPUT_dust]) text_line(text, "    compose_dust(m, s);");
     if (model->table) text_line(text, "    m.table = sheen_table();");
     if (model->table && layer_needs_average(model->stack.layer))
@@ -203,19 +220,58 @@ static void put_shade(Draft *draft, const ExportModel *model) {
               c ? "    static StackView nothing;\n" : "", c ? " = nothing" : "");
     if (needs_e(model)) text_line(text, "    w.e_o = stack_albedo(m, wo);");
     if (model->slots.slots[PLACE_SHEEN].count) text_line(text, "    view_base_scale(m, w);");
-    if (through)
+    if (model->slots.transmits)
         text_line(text,
                   "    if (wi.z < 0.0) {\n"
                   "        Angles mirrored = angles_between(wo, dir(wi.x, wi.y, -wi.z));\n"
                   "        return %s;\n    }",
                   draft->desc->fold_pi ? "rgb_scale(stack_transmitted(m, w, mirrored).f_cos, PI)"
                                        : "stack_transmitted(m, w, mirrored).f_cos");
+}
+
+/* Writes the end of the function for a cloth. The layers above are linear in f of the base: pi times their f of a white
+ * Lambert lobe, times f of the cloth, is that of the cloth below them. */
+static void put_woven_value(Draft *draft, const ExportModel *model) {
+    Text *text = &draft->text;
+    const char *id = draft->id[0];
+    text_line(text, "    Rgb cloth = weave_value(seen, %s_warp(), %s_weft(), a);", id, id);
+    if (model->bare) {
+        text_line(text, draft->desc->fold_pi ? "    return rgb_scale(cloth, PI * wi.z);\n}"
+                                             : "    return rgb_scale(cloth, wi.z);\n}");
+        return;
+    }
+    text_line(text, "    Rgb above = stack_value_of(m, w, slots_of(false, false, true, true, true), a, %s).f_cos;",
+              model->slots.slots[PLACE_COAT].count ? "b" : "a");
+    text_line(text, "    Rgb below = stack_value_of(m, w, slots_of(true, false, false, false, false), a, a).f_cos;");
+    if (model->material.alpha_mode != WEFT_ALPHA_OPAQUE) text_line(text, "    above = rgb_scale(above, seen.covers);");
+    text_line(text, draft->desc->fold_pi
+                        ? "    return rgb_scale(rgb_add(above, rgb_scale(rgb_mul(below, cloth), PI)), PI);\n}"
+                        : "    return rgb_add(above, rgb_scale(rgb_mul(below, cloth), PI));\n}");
+}
+
+static void put_shade(Draft *draft, const ExportModel *model) {
+    Text *text = &draft->text;
+    bool coat = model->slots.slots[PLACE_COAT].count > 0, through = model->slots.transmits;
+    text_line(text,
+              "\n/* f%s times the cosine of wi, each channel; %s. */\n"
+              "Rgb %s_shade(Surface s, %sDir wo, Dir wi) {\n"
+              "    if (wo.z <= 0.0%s) return rgb_grey(0.0);",
+              draft->desc->fold_pi ? " times pi" : "",
+              through ? "below the horizon, of the light that comes through" : "black below the horizon", draft->id[0],
+              model->woven ? "WeaveSeen seen, " : "", through ? "" : " || wi.z <= 0.0");
+    if (model->woven && draft->desc->cloth->rotation != 0.0)
+        text_line(text, "    wo = weave_direction(%s_placing(), wo);\n    wi = weave_direction(%s_placing(), wi);",
+                  draft->id[0], draft->id[0]);
+    if (!model->bare) put_stack(draft, model);
     text_line(text, "    Angles a = angles_between(wo, wi);");
     if (coat) text_line(text, "    Angles b = angles_between(w.coat_o, stack_to_coat(m, wi));");
-    text_line(text,
-              draft->desc->fold_pi ? "    return rgb_scale(stack_value(m, w, a, %s).f_cos, PI);\n}"
-                                   : "    return stack_value(m, w, a, %s).f_cos;\n}",
-              coat ? "b" : "a");
+    if (model->woven)
+        put_woven_value(draft, model);
+    else
+        text_line(text,
+                  draft->desc->fold_pi ? "    return rgb_scale(stack_value(m, w, a, %s).f_cos, PI);\n}"
+                                       : "    return stack_value(m, w, a, %s).f_cos;\n}",
+                  coat ? "b" : "a");
     draft_root(draft, "%s_shade", draft->id[0]);
 }
 
@@ -231,6 +287,7 @@ static void put_text(Draft *draft, ExportModel *model) {
     if (model->chosen) text_composition_choices(text, &model->choices);
     if (model->table) text_albedo_table(text, "sheen_table", "sheen", model->table);
     put_surface(draft, model);
+    if (model->woven) draft_cloth(draft);
     put_shade(draft, model);
 }
 

@@ -62,12 +62,18 @@ static void put_material(const Draft *draft, const char *precision, Buffer *out)
         if (takes(draft, k))
             put_line(out, "    %s%s %s,", precision, input_infos[k].kind == WEFT_INPUT_COLOR ? "3" : "",
                      parameter(k, bare));
+    if (draft->desc->cloth) put_line(out, "    float2 Uv, float2 UvDdx, float2 UvDdy,");
     put_line(out, "    %s3 Wo, %s3 Wi, out %s3 Out) {", precision, precision, precision);
     spell_item(&draft->speller, &draft->items, ITEM_RECORD, "Surface", record);
     put_line(out, "    %s s = %s();", record, function(draft, "surface", name));
     for (int k = 0; k < INPUT_COUNT; k++)
         if (takes(draft, k)) put_line(out, "    s.%s = %s;", input_infos[k].name, parameter(k, bare));
-    put_line(out, "    Out = %s(s, Wo, Wi);\n}", function(draft, "shade", name));
+    if (draft->desc->cloth) {
+        spell_item(&draft->speller, &draft->items, ITEM_RECORD, "WeaveSeen", record);
+        put_line(out, "    %s seen = %s(s, Uv.x, Uv.y, UvDdx.x, UvDdx.y, UvDdy.x, UvDdy.y, 1);", record,
+                 function(draft, "see", name));
+    }
+    put_line(out, "    Out = %s(s, %sWo, Wi);\n}", function(draft, "shade", name), draft->desc->cloth ? "seen, " : "");
 }
 
 void draft_unity(const Draft *draft, Buffer *out) {

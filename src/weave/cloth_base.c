@@ -9,20 +9,14 @@
  * were a POINTS-th of the pixel apart. */
 enum { LATER = 2, FINER = 4, POINTS = 4, SHOWN = 2 };
 
-/* Returns the place of texture coordinates, in threads. */
-FN Dir place_of(ClothPlacing placing, float u, float v) {
-    Dir at = cloth_threads(placing, u, v);
-    return dir(weave_in_range(at.x), weave_in_range(at.y), 0.0f);
-}
-
 bool cloth_is_gap(const WeftCloth *cloth, const float uv[2]) {
-    const Dir at = place_of(cloth_placing(cloth), uv[0], uv[1]);
+    const Dir at = weave_place_of(cloth_placing(cloth), uv[0], uv[1]);
     return weave_gap(&cloth->weave, at.x, at.y);
 }
 
 Rgb cloth_fibre_albedo(const WeftCloth *cloth, const float uv[2]) {
     const Weave *m = &cloth->weave;
-    const Dir at = place_of(cloth_placing(cloth), uv[0], uv[1]);
+    const Dir at = weave_place_of(cloth_placing(cloth), uv[0], uv[1]);
     const WeavePoint p = weave_top(m, at.x, at.y);
     return rgb(weave_albedo(m, p, 0), weave_albedo(m, p, 1), weave_albedo(m, p, 2));
 }
@@ -60,9 +54,9 @@ LOOP(place_n,
      (const ClothLooks *looks, const WeftCloth *cloth, int n, float *restrict x, float *restrict y,
       float *restrict far),
      (looks, cloth, n, x, y, far)) {
-    ClothPlacing placing = cloth_placing(cloth);
+    WeavePlacing placing = cloth_placing(cloth);
     EACH(k, (size_t)n) {
-        Dir at = place_of(placing, looks->uv[0][k], looks->uv[1][k]);
+        Dir at = weave_place_of(placing, looks->uv[0][k], looks->uv[1][k]);
         WeaveFootprint f;
         f.x = looks->footprint_x[k] / LATER;
         f.y = looks->footprint_y[k] / LATER;
@@ -277,11 +271,11 @@ FN Rgb level_albedo(const Weave *m, const ClothFar *far, int level, float across
 LOOP(guide_n, (const WeftCloth *cloth, const ClothLooks *looks, float scale, int n, float *far, ClothGuide *guide),
      (cloth, looks, scale, n, far, guide)) {
     Weave m = without_cycle(&cloth->weave);
-    ClothPlacing placing = cloth_placing(cloth);
+    WeavePlacing placing = cloth_placing(cloth);
     float last = to_float(cloth->far.levels - 1), warps = to_float(m.warps), picks = to_float(m.picks);
     float finer_x = SHOWN * warps / to_float(cloth->far.width), finer_y = SHOWN * picks / to_float(cloth->far.height);
     EACH(k, (size_t)n) {
-        Dir at = place_of(placing, looks->uv[0][k], looks->uv[1][k]);
+        Dir at = weave_place_of(placing, looks->uv[0][k], looks->uv[1][k]);
         WeaveFootprint f, shown;
         f.x = looks->footprint_x[k];
         f.y = looks->footprint_y[k];

@@ -5,6 +5,7 @@
 
 #include "shading/kinds/kind.h"
 #include "shading/weave/weave_base.h"
+#include "shading/weave/weave_place.h"
 #include "weave/weft_cloth.h"
 
 /* Points of a cloth, each seen by a pixel. */
@@ -17,21 +18,10 @@ typedef struct ClothLooks {
     bool holed;                /* gaps between threads are holes, not black */
 } ClothLooks;
 
-/* The way from texture coordinates to threads: their numbers in a unit, and the rotation of the weave. */
-typedef struct ClothPlacing {
-    float warps, picks, rotation_cos, rotation_sin;
-} ClothPlacing;
-
-FN ClothPlacing cloth_placing(const WeftCloth *cloth) {
-    return (ClothPlacing){cloth->per_uv[WEFT_WARP], cloth->per_uv[WEFT_WEFT], cloth->rotation_parts[0],
+/* Returns where the weave of a cloth lies. */
+FN WeavePlacing cloth_placing(const WeftCloth *cloth) {
+    return (WeavePlacing){cloth->per_uv[WEFT_WARP], cloth->per_uv[WEFT_WEFT], cloth->rotation_parts[0],
                           cloth->rotation_parts[1]};
-}
-
-/* Returns a step in texture coordinates in threads: across the warp (x), and along it in picks (y). Picks count up the
- * cloth, v runs down. */
-FN Dir cloth_threads(ClothPlacing p, float u, float v) {
-    return dir((p.rotation_cos * u - p.rotation_sin * v) * p.warps,
-               (-p.rotation_cos * v - p.rotation_sin * u) * p.picks, 0.0f);
 }
 
 /* The features of cloth at its points that guide a denoiser: the part of light from all around that comes back, and

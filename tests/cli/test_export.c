@@ -58,6 +58,40 @@ static void export_finds_every_model(void **state) {
     assert_has("out.h", "0.5f, 0.25f, 0.125f");
 }
 
+/* A preset, a file, words, a material file and a material of a scene, each with its threads and without a warning. */
+static void woven_material_is_exported_with_its_threads(void **state) {
+    (void)state;
+    static const char own[] = "{\"weave\": {\"draft\": \"twill 2/2 z\", \"rotation\": 45}}";
+    static const char *const models[][2] = {{"preset:woven-denim", "woven_denim"},
+                                            {"herring.wif", "herring"},
+                                            {"twill 3/1 s; warp 4b", "twill"},
+                                            {"threads.json", "threads"},
+                                            {"woven.glb:ball", "ball"}};
+    file_make("threads.json", own, sizeof own - 1);
+    finish(done(LIST("weave", "herringbone 2/2 8", "-o", "herring.wif")));
+    finish(done(LIST("render", "builtin:ball", "--material", "threads.json", "--save", "woven.glb")));
+    for (size_t k = 0; k < sizeof models / sizeof *models; k++) {
+        char wanted[64];
+        Ran ran = done(LIST("export", models[k][0], "--target", "c", "-o", "out.h"));
+        if (strstr(ran.err, "warning")) fail_msg("%s: %s", models[k][0], ran.err);
+        ran_free(&ran);
+        snprintf(wanted, sizeof wanted, "WeftxWeaveSeen weftx_%s_see(", models[k][1]);
+        assert_has("out.h", wanted);
+        snprintf(wanted, sizeof wanted, "weftx_%s_shade(", models[k][1]);
+        assert_has("out.h", wanted);
+        if (k > 2) assert_has("out.h", "m.rotation_cos = 0.70710677f;");
+    }
+    Ran ran = done(LIST("export", "preset:woven-denim", "--target", "glsl", "-o", "denim.glsl"));
+    assert_non_null(strstr(ran.err, "denim.weft_texels_colors.exr: 16 x 28 texels"));
+    assert_non_null(strstr(ran.err, "woven-denim: the back of the cloth, hair and normal maps are left out"));
+    ran_free(&ran);
+    ran = run_with(NULL, LIST("export", "preset:woven-tartan", "--target", "shadertoy", "-o", "toy"));
+    assert_int_equal(ran.code, WEFT_USAGE);
+    assert_non_null(strstr(ran.err, "woven-tartan: is invalid: tables of 559680 numbers"));
+    assert_non_null(strstr(ran.err, "take another target, or a smaller draft"));
+    ran_free(&ran);
+}
+
 static void export_options_change_the_text(void **state) {
     (void)state;
     finish(done(LIST("export", "charlie-neubelt:alpha=0.5", "--target", "glsl", "--prefix", "fuzz_", "-o", "a.glsl")));
@@ -399,6 +433,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(export_help_names_every_target),
         cmocka_unit_test(export_finds_every_model),
+        cmocka_unit_test(woven_material_is_exported_with_its_threads),
         cmocka_unit_test(export_options_change_the_text),
         cmocka_unit_test(several_models_make_one_file),
         cmocka_unit_test(exported_table_files_read_back_as_written),

@@ -26,8 +26,9 @@
 #include "scene/record/material_at.h"
 #include "shading/material/choice.h"
 #include "shading/material/material_stack.h"
+#include "weave/cloth_base.h"
 
-enum { PAIRS = 4096, INPUTS = 6, OUTPUTS = 2, MODELS_MAX = 128 };
+enum { PAIRS = 4096, INPUTS = 6, OUTPUTS = 2, MODELS_MAX = 192 };
 
 /* A lobe, or a material: a profile's, a workflow's or a preset's. */
 typedef struct Exported {
@@ -37,6 +38,7 @@ typedef struct Exported {
     WeftMaterial numbers;
     Material material;
     bool profile;
+    WeftCloth *cloth; /* kept to the end of the program; NULL: not woven */
 } Exported;
 
 static inline int models_lobes(Exported *out) {
@@ -127,6 +129,43 @@ static inline int models_presets(Exported *out) {
     return count;
 }
 
+/* Cloths: bare threads with and without gaps, and a rotated weave below a sheen, a coat and dust that lets light through,
+ * whose gaps are holes. */
+static inline int models_woven(Exported *out) {
+    static const char *const ids[] = {"woven-denim", "woven-linen", "a_weave"}, *const layers[][2] = {
+                                                                                    {"weave.draft",
+                                                                                     "herringbone 2/2 8; warp 4k 2r"},
+                                                                                    {"weave.warp", "wool"},
+                                                                                    {"weave.rotation", "30"},
+                                                                                    {"weave.metres", "1"},
+                                                                                    {"sheen_color", "0.6,0.4,0.3"},
+                                                                                    {"clearcoat", "0.5"},
+                                                                                    {"dust", "0.05"},
+                                                                                    {"wear", "0.4"},
+                                                                                    {"diffuse_transmission", "0.3"},
+                                                                                    {"opacity", "1"}};
+    enum { WOVEN = sizeof ids / sizeof *ids, LAYERS = sizeof layers / sizeof *layers };
+    for (int k = 0; k < WOVEN; k++) {
+        WeftScene *scene;
+        WeftError error;
+        char path[64];
+        snprintf(path, sizeof path, "preset:%s", k + 1 < WOVEN ? ids[k] : ids[0]);
+        out[k] = (Exported){.id = ids[k], .fixed = true};
+        assert_int_equal(weft_scene_load("builtin:ball", &scene, NULL, &error), WEFT_OK);
+        assert_int_equal(weft_scene_assign_material(scene, NULL, path, NULL, &error), WEFT_OK);
+        for (int layer = 0; k + 1 == WOVEN && layer < LAYERS; layer++) {
+            char target[64];
+            snprintf(target, sizeof target, "ball.%s", layers[layer][0]);
+            if (weft_scene_set(scene, target, layers[layer][1], NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+        }
+        assert_int_equal(weft_scene_material(scene, 0, &out[k].numbers, &error), WEFT_OK);
+        out[k].material = material_sound(&out[k].numbers);
+        assert_int_equal(weft_scene_cloth_copy(scene, out[k].numbers.cloth, &out[k].cloth, &error), WEFT_OK);
+        weft_scene_free(scene);
+    }
+    return WOVEN;
+}
+
 static inline bool has_albedo(const Exported *s) {
     return s->is_lobe && !(weft_lobe_info(s->lobe.lobe)->traits & WEFT_LOBE_ANISOTROPIC);
 }
@@ -142,6 +181,7 @@ static inline WeftExportDesc model_desc(const Exported *s, WeftExportTarget targ
         desc.profile = s->id;
     } else {
         desc.material = &s->numbers;
+        desc.cloth = s->cloth;
     }
     return desc;
 }
@@ -170,6 +210,14 @@ static inline Dir any_direction(Draw *draw) {
     return grid_direction(draw_unit(draw) < 0.25f ? (exp2)(-10.0 * z) : z, phi);
 }
 
+/* Sets where a point of a cloth is seen, and how large its pixel is: from a hundredth of a thread to a hundred. */
+static inline void woven_inputs(const Exported *s, float *in[INPUTS], size_t k) {
+    const float per = s->cloth->per_uv[WEFT_WARP], size = 0.01f * (float)(pow)(1e4, (double)in[4][4 * k]) / per;
+    for (size_t c = 0; c < 2; c++) in[2][4 * k + c] = (40.0f * in[2][4 * k + c] - 20.0f) / per;
+    for (size_t c = 0; c < 4; c++) in[3][4 * k + c] = (2.0f * in[3][4 * k + c] - 1.0f) * size;
+    in[2][4 * k + 2] = k % 3 ? 1.0f : 4.0f;
+}
+
 /* in[row][4 k + column] */
 static inline void model_inputs(const Exported *s, float *in[INPUTS]) {
     Draw draw = draw_start(20, 0);
@@ -182,6 +230,7 @@ static inline void model_inputs(const Exported *s, float *in[INPUTS]) {
             in[1][4 * k + c] = rows[1][c];
             for (int row = 2; row < INPUTS; row++) in[row][4 * k + c] = draw_unit(&draw);
         }
+        if (s->cloth) woven_inputs(s, in, k);
         for (int p = 0; s->is_lobe && p < weft_lobe_info(s->lobe.lobe)->param_count; p++) {
             const WeftParamInfo *info = &weft_lobe_info(s->lobe.lobe)->params[p];
             float x = info->low + (info->high - info->low) * draw_unit(&draw),
@@ -284,7 +333,13 @@ static inline void put_material_questions(const Exported *s, const WeftExport *t
             body_put(body, "    s.%s = %s;\n", name, varied[v].at);
     }
     body_declare(body, l, l->rgb, "f");
-    body_put(body, " = %s_shade(s, o, i);\n", id);
+    if (!s->cloth) {
+        body_put(body, " = %s_shade(s, o, i);\n", id);
+        return;
+    }
+    char seen[256];
+    snprintf(seen, sizeof seen, "%s_see(s, in2.x, in2.y, in3.x, in3.y, in3.z, in3.w, %s(in2.z))", id, l->whole);
+    body_put(body, " = %s_shade(s, %s, o, i);\n    out0.w = %s.covers;\n    out1.x = %s.afar;\n", id, seen, seen, seen);
 }
 
 /* Statements which read in0 .. in5 and set members of out0 and out1. */
@@ -339,6 +394,117 @@ static inline void lobe_answers(const Exported *s, float *const in[INPUTS], floa
     free(table);
 }
 
+/* Returns a colour of a cloth from afar at x, y in threads: the mean over the texels of two levels around the place. */
+static inline void woven_color(const WeftCloth *cloth, float level, int layer, const float at[2], float color[4]) {
+    const double last = (double)(cloth->far.levels - 1), between = fmin((double)level, last);
+    const int counts[2] = {cloth->weave.warps, cloth->weave.picks};
+    double sum[4] = {0.0, 0.0, 0.0, 0.0};
+    for (int corner = 0; corner < 8; corner++) {
+        const int coarser = corner / 4, floored = (int)(floor)(between);
+        int sides[2], texel[2];
+        double weight = coarser ? between - floored : 1.0 - (between - floored);
+        const float *texels = cloth_far_level(&cloth->far, (int)fmin(floored + coarser, last), &sides[0], &sides[1]);
+        for (int axis = 0; axis < 2; axis++) {
+            const double place = (double)at[axis] / counts[axis] * sides[axis] - 0.5, low = (floor)(place);
+            const int next = corner >> axis & 1;
+            weight *= next ? place - low : 1.0 - (place - low);
+            texel[axis] = (((int)low + next) % sides[axis] + sides[axis]) % sides[axis];
+        }
+        texels += 4 * ((layer * sides[1] + texel[1]) * sides[0] + texel[0]);
+        for (int c = 0; c < 4; c++) sum[c] += weight * (double)texels[c];
+    }
+    for (int c = 0; c < 4; c++) color[c] = (float)sum[c];
+}
+
+/* Returns one system from afar at a place, as the raster engine has it. */
+static inline WeaveBase woven_system(const WeftCloth *cloth, bool weft, const float at[2], WeaveFootprint f, int points,
+                                     float wear) {
+    const Weave *m = &cloth->weave;
+    const float texels = points > 1 ? 2.0f : 1.0f;
+    const float level = weave_far_level(f, texels * (float)m->warps / (float)cloth->far.width,
+                                        texels * (float)m->picks / (float)cloth->far.height);
+    float single[4], multiple[4];
+    woven_color(cloth, level, weft ? FAR_WEFT_SINGLE : FAR_WARP_SINGLE, at, single);
+    woven_color(cloth, level, weft ? FAR_WEFT_MULTIPLE : FAR_WARP_MULTIPLE, at, multiple);
+    return weave_far(m, weft, rgb(single[0], single[1], single[2]), rgb(multiple[0], multiple[1], multiple[2]),
+                     single[3], weave_far_dye(m, weft, at[0], at[1], f), wear);
+}
+
+/* A cloth's answer: its bases in the stack of the material one by one, as in a picture, and the layers above them. */
+typedef struct WovenAsked {
+    const WeftCloth *cloth;
+    Surface surface;
+    Choices choices;
+    TableRef e;
+    Dir o, i;
+} WovenAsked;
+
+/* Returns f cos of the stack on a base, of the base alone or of all else. axis: of a thread; woven: lobe of a system. */
+static inline Rgb woven_f(const WovenAsked *asked, WeaveBase base, const Dir *axis, const WovenPrepared *woven,
+                          bool own) {
+    SeenStack seen;
+    stack_make(&seen.stack, &asked->surface, &asked->choices, asked->e);
+    stack_put_base(&seen.stack, &base.lobe, base.single, base.multiple);
+    if (axis) seen.stack.diffuse_prepared.yarn.axis = *axis;
+    if (woven) seen.stack.diffuse_prepared.woven = *woven;
+    if (woven) seen.stack.diffuse_prepared.woven.scale = 1.0f;
+    stack_see(&seen.stack, &asked->o, &seen.view);
+    return stack_eval_of(&seen.stack, &seen.view, slots_of(own, false, !own, !own, !own), asked->i).f_cos;
+}
+
+static inline void woven_answer(const WovenAsked *asked, bool holed, const float uv[2], const float step[4], int points,
+                                float out[4], float *afar) {
+    const WeftCloth *cloth = asked->cloth;
+    const Weave *m = &cloth->weave;
+    const float c = cloth->rotation_parts[0], s = cloth->rotation_parts[1], wear = asked->surface.wear;
+    float to[3][2]; /* the place, and the steps to the next pixels, in threads */
+    for (int k = 0; k < 3; k++) {
+        const float *from = k ? step + 2 * k - 2 : uv;
+        to[k][0] = (c * from[0] - s * from[1]) * cloth->per_uv[WEFT_WARP];
+        to[k][1] = (-c * from[1] - s * from[0]) * cloth->per_uv[WEFT_WEFT];
+    }
+    const WeaveFootprint f = weave_footprint(to[1][0], to[1][1], to[2][0], to[2][1]);
+    const float far = points > 1 ? weave_far_weight(f) : weave_far_weight_alone(f);
+    const uint across = weave_key(m->seed, WEAVE_OF_LOTS, (floorf)(32.0f * to[0][0]), (floorf)(32.0f * to[0][1]));
+    const WeavePoint p = weave_point(m, to[0][0], to[0][1], f.longest / sqrtf((float)points), weave_second(across));
+    const float there = p.height > WEAVE_NONE ? 1.0f : 0.0f;
+    const WeaveBase near = weave_near(m, p, wear);
+    Rgb sum = rgb_scale(woven_f(asked, near, &p.fibre, NULL, true), 1.0f - far);
+    for (int t = 0; t < 2; t++)
+        sum = rgb_add(sum, rgb_scale(woven_f(asked, woven_system(cloth, t == 1, to[0], f, points, wear), NULL,
+                                             &cloth->far.woven[t], true),
+                                     far));
+    const float covers = mix(there, min(m->warp_far.share + m->weft_far.share, 1.0f), far);
+    const Rgb above = woven_f(asked, near, &p.fibre, NULL, false);
+    if (asked->i.z > 0.0f)
+        sum = rgb_add(sum, rgb_scale(above, holed ? covers : 1.0f));
+    else
+        sum = woven_f(asked, near, &p.fibre, NULL, true);
+    out[0] = sum.r, out[1] = sum.g, out[2] = sum.b, out[3] = covers;
+    *afar = far;
+}
+
+static inline void woven_answers(const Exported *s, float *const in[INPUTS], float *out[OUTPUTS]) {
+    AlbedoTable *table = calloc(1, sizeof *table);
+    assert_non_null(table);
+    WovenAsked asked = {
+        .cloth = s->cloth, .surface = material_plain(&s->material), .choices = material_choices(&s->material)};
+    sheen_table_fill(&asked.surface, &asked.choices, table);
+    asked.e = albedo_table_ref(table);
+    const float c = s->cloth->rotation_parts[0], sine = s->cloth->rotation_parts[1];
+    for (size_t k = 0; k < PAIRS; k++) {
+        Dir *const to[2] = {&asked.o, &asked.i};
+        for (int d = 0; d < 2; d++) {
+            const float *w = in[d] + 4 * k;
+            *to[d] = dir(c * w[0] + sine * w[1], c * w[1] - sine * w[0], w[2]);
+        }
+        woven_answer(&asked, s->material.alpha_mode != WEFT_ALPHA_OPAQUE, in[2] + 4 * k, in[3] + 4 * k,
+                     (int)in[2][4 * k + 2], out[0] + 4 * k, out[1] + 4 * k);
+        for (size_t r = 1; r < 4; r++) out[1][4 * k + r] = 0.0f;
+    }
+    free(table);
+}
+
 static inline void material_answers(const Exported *s, float *const in[INPUTS], float *out[OUTPUTS]) {
     const Choices choices = material_choices(&s->material);
     Surface plain = material_plain(&s->material);
@@ -360,7 +526,7 @@ static inline void material_answers(const Exported *s, float *const in[INPUTS], 
 }
 
 static inline void model_answers(const Exported *s, float *const in[INPUTS], float *out[OUTPUTS]) {
-    (s->is_lobe ? lobe_answers : material_answers)(s, in, out);
+    (s->is_lobe ? lobe_answers : s->cloth ? woven_answers : material_answers)(s, in, out);
 }
 
 typedef struct Arrays {

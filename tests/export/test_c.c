@@ -66,22 +66,32 @@ static void compile(const char *compiler, const char *more) {
     if (system(command) != 0) fail_msg("%s %s", compiler, more);
 }
 
-static void agree(const char *compiler) {
+static void *library_open(const char *compiler) {
     char path[256];
     snprintf(path, sizeof path, "%s/%s.so", folder, compiler);
-    if (!has_program(compiler)) skip();
     void *library = dlopen(path, RTLD_NOW);
     if (!library) fail_msg("%s", dlerror());
+    return library;
+}
+
+/* Puts the questions of a model's arrays to its text. */
+static void library_run(void *library, int k, const Arrays *a) {
+    union {
+        void *symbol;
+        void (*run)(int n, float *const in[6], float *const out[2]);
+    } at;
+    char name[32];
+    snprintf(name, sizeof name, "run_%d", k);
+    at.symbol = dlsym(library, name);
+    assert_non_null(at.symbol);
+    at.run(PAIRS, a->in, a->out);
+}
+
+static void agree(const char *compiler) {
+    if (!has_program(compiler)) skip();
+    void *library = library_open(compiler);
     for (int k = 0; k < model_count; k++) {
-        union {
-            void *symbol;
-            void (*run)(int n, float *const in[6], float *const out[2]);
-        } at;
-        char name[32];
-        snprintf(name, sizeof name, "run_%d", k);
-        at.symbol = dlsym(library, name);
-        assert_non_null(at.symbol);
-        at.run(PAIRS, arrays[k].in, arrays[k].out);
+        library_run(library, k, &arrays[k]);
         assert_agree(&models[k], compiler, &arrays[k]);
     }
     dlclose(library);
@@ -99,6 +109,47 @@ static void c_text_compiled_by_clang_agrees_with_the_library(void **state) {
     agree("clang");
 }
 
+/* Returns the mean of what a cloth's text reflects over all points of the arrays, each seen at that size of a pixel. */
+static double mean_seen(void *library, int k, Arrays *a, Dir o, Dir i, float size) {
+    double sum = 0.0;
+    for (size_t n = 0; n < PAIRS; n++) {
+        const float rows[2][3] = {{o.x, o.y, o.z}, {i.x, i.y, i.z}};
+        const float steps[4] = {size, 0.0f, 0.0f, size};
+        for (int row = 0; row < 2; row++) memcpy(a->in[row] + 4 * n, rows[row], sizeof rows[row]);
+        a->in[2][4 * n + 2] = 1.0f;
+        memcpy(a->in[3] + 4 * n, steps, sizeof steps);
+    }
+    library_run(library, k, a);
+    for (size_t n = 0; n < PAIRS; n++)
+        for (size_t c = 0; c < 3; c++) sum += (double)a->out[0][4 * n + c] / (3.0 * PAIRS);
+    return sum;
+}
+
+/* The lobes from afar are fits: over six pairs of directions they are 0.15 off in the mean at most. */
+static void points_of_a_cloth_have_the_mean_of_the_cloth_from_afar(void **state) {
+    (void)state;
+    static const double pairs[][4] = {{0.9, 0.3, 0.8, 2.1},   {0.5, 1.0, 0.7, 4.0},  {0.8, 0.0, 0.8, 3.14},
+                                      {0.4, 1.57, 0.9, 4.71}, {0.95, 2.0, 0.4, 0.5}, {0.6, 5.0, 0.6, 3.5}};
+    enum { DIRECTIONS = sizeof pairs / sizeof *pairs };
+    if (!has_program("gcc")) skip();
+    void *library = library_open("gcc");
+    for (int k = 0; k < model_count; k++) {
+        double error = 0.0, whole = 0.0;
+        for (int p = 0; models[k].cloth && p < DIRECTIONS; p++) {
+            const Dir o = grid_direction(pairs[p][0], pairs[p][1]), i = grid_direction(pairs[p][2], pairs[p][3]);
+            const float threads = 1.0f / models[k].cloth->per_uv[WEFT_WARP];
+            const double near = mean_seen(library, k, &arrays[k], o, i, 0.0f);
+            const double far = mean_seen(library, k, &arrays[k], o, i, 300.0f * threads);
+            error += fabs(near - far);
+            whole += near;
+        }
+        if (getenv("WEFT_TEST_TELL") && models[k].cloth)
+            print_message("%s: from afar %.3f of the points off\n", models[k].id, error / whole);
+        if (error > 0.15 * whole) fail_msg("%s: %.3f off", models[k].id, error / whole);
+    }
+    dlclose(library);
+}
+
 /* In a C++ compiler's eyes too; every header guards itself. */
 static void c_text_is_valid_cpp(void **state) {
     (void)state;
@@ -111,6 +162,7 @@ static int begin(void **state) {
     model_count = models_lobes(models);
     model_count += models_profiles(models + model_count);
     model_count += models_choices(models + model_count);
+    model_count += models_woven(models + model_count);
     if (getenv("WEFT_TEST_LONG")) model_count += models_presets(models + model_count);
     FILE *all = file_open("all.c");
     fprintf(all, "typedef struct { float x, y, z, w; } float4;\n");
@@ -131,6 +183,7 @@ static int end(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(c_text_compiled_by_gcc_agrees_with_the_library),
                                        cmocka_unit_test(c_text_compiled_by_clang_agrees_with_the_library),
+                                       cmocka_unit_test(points_of_a_cloth_have_the_mean_of_the_cloth_from_afar),
                                        cmocka_unit_test(c_text_is_valid_cpp)};
     return cmocka_run_group_tests(tests, begin, end);
 }

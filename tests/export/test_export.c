@@ -22,8 +22,10 @@ static const WeftExport *text_of(int model, int target) {
     return made;
 }
 
-/* Every lobe, and a fourth of all profiles, choices and presets, whose tables take long; the long run has all. */
-static bool is_asked(int model) { return models[model].is_lobe || getenv("WEFT_TEST_LONG") || model % 4 == 0; }
+/* Every lobe and cloth, and a fourth of all profiles, choices and presets, whose tables take long; the long run has all. */
+static bool is_asked(int model) {
+    return models[model].is_lobe || models[model].cloth || getenv("WEFT_TEST_LONG") || model % 4 == 0;
+}
 
 static int begin(void **state) {
     (void)state;
@@ -31,6 +33,7 @@ static int begin(void **state) {
     model_count += models_profiles(models + model_count);
     model_count += models_choices(models + model_count);
     model_count += models_presets(models + model_count);
+    model_count += models_woven(models + model_count);
     return 0;
 }
 
@@ -157,6 +160,16 @@ static void records_nest_as_webgl_takes_them(void **state) {
     }
 }
 
+/* Compilers of HLSL make no vector of a single number by a call, though glslangValidator does: it is cast. */
+static void assert_vectors_cast(const Exported *s, const char *code) {
+    for (const char *c = code; (c = strstr(c, "float3(")); c++) {
+        int depth = 0, commas = 0;
+        for (const char *at = c + 6; *at && (depth += (*at == '(') - (*at == ')')) > 0; at++)
+            commas += depth == 1 && *at == ',';
+        if (commas != 2) fail_msg("%s: %.40s", s->id, c);
+    }
+}
+
 /* No name of a language's own, no call where it has an operator, no number in the notation of C, no record
  * that is filled or idle. */
 static void exported_text_uses_operators_of_its_language(void **state) {
@@ -172,7 +185,7 @@ static void exported_text_uses_operators_of_its_language(void **state) {
         "triangle", "technique", "precise", "interface", "namespace", "register", "compile"};
     for (int k = 0; k < model_count; k++) {
         const Exported *s = &models[k];
-        if (!s->is_lobe && !getenv("WEFT_TEST_LONG") && k % 6) continue;
+        if (!s->is_lobe && !s->cloth && !getenv("WEFT_TEST_LONG") && k % 6) continue;
         for (int t = WEFT_EXPORT_GLSL; t <= WEFT_EXPORT_HLSL; t++) {
             char *code = code_of(text_of(k, t)->text);
             for (size_t n = 0; n < sizeof banned / sizeof *banned; n++)
@@ -187,6 +200,7 @@ static void exported_text_uses_operators_of_its_language(void **state) {
                     if (*first >= '0' && *first <= '9') fail_msg("%s: %.12s", s->id, first);
                 }
             assert_records_used(s, code);
+            if (t == WEFT_EXPORT_HLSL) assert_vectors_cast(s, code);
             free(code);
         }
     }
@@ -405,6 +419,56 @@ static void export_descriptors_without_sense_are_refused(void **state) {
     weft_export_free(NULL);
 }
 
+/* Exports a draft of that notation. Returns the error's message, or "" where there is a text. */
+static const char *woven_refusal(const char *notation, WeftExportTarget target, WeftExportLut lut, WeftError *error) {
+    WeftDraft *draft = NULL;
+    WeftCloth *cloth = NULL;
+    WeftYarn yarns[2];
+    WeftMaterial material;
+    WeftExport made;
+    weft_material_default(&material);
+    for (int t = 0; t < 2; t++) assert_int_equal(weft_yarn_find("cotton", &yarns[t], error), WEFT_OK);
+    if (weft_draft_parse(notation, &draft, error) != WEFT_OK ||
+        weft_cloth_create(draft, yarns, 0, &cloth, error) != WEFT_OK)
+        fail_msg("%s", error->text);
+    const WeftExportDesc desc = {.material = &material, .cloth = cloth, .name = "cloth", .target = target, .lut = lut};
+    const WeftResult result = weft_export(&desc, &made, error);
+    assert_true((result == WEFT_OK) == (made.text != NULL));
+    weft_export_free(&made);
+    weft_cloth_free(cloth);
+    weft_draft_free(draft);
+    return result == WEFT_OK ? "" : error->text;
+}
+
+static void draft_that_a_target_cannot_hold_is_refused_with_what_to_do(void **state) {
+    (void)state;
+    static const char small[] = "twill 2/2 z", middle[] = "satin 37/8", wide[] = "plain; warp 2099k 1r";
+    static const char large[] = "plain; warp 599k 1r; weft 599k 1r";
+    static const struct {
+        const char *draft;
+        WeftExportTarget target;
+        WeftExportLut lut;
+        const char *words; /* of the refusal; "": there is a text */
+    } cases[] = {{small, WEFT_EXPORT_SHADERTOY, WEFT_EXPORT_LUT_C, ""},
+                 {middle, WEFT_EXPORT_SHADERTOY, WEFT_EXPORT_LUT_C, "take another target, or a smaller draft"},
+                 {middle, WEFT_EXPORT_C, WEFT_EXPORT_LUT_C, ""},
+                 {large, WEFT_EXPORT_C, WEFT_EXPORT_LUT_C, "put them beside it with --lut exr"},
+                 {large, WEFT_EXPORT_C, WEFT_EXPORT_LUT_EXR, ""},
+                 {wide, WEFT_EXPORT_WGSL, WEFT_EXPORT_LUT_EXR, "at most 8192 a side"},
+                 {wide, WEFT_EXPORT_GLSL, WEFT_EXPORT_LUT_EXR, ""}};
+    WeftError error;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const char *refusal = woven_refusal(cases[k].draft, cases[k].target, cases[k].lut, &error);
+        if (!*cases[k].words == !!*refusal || !strstr(refusal, cases[k].words))
+            fail_msg("%s, %s: \"%s\"", cases[k].draft, weft_export_target_name((int)cases[k].target), refusal);
+    }
+    WeftExport made;
+    assert_int_not_equal(
+        weft_export(&(WeftExportDesc){.profile = "khronos", .cloth = models[model_count - 1].cloth}, &made, &error),
+        WEFT_OK);
+    assert_int_equal(error.message, WEFT_MESSAGE_DESC);
+}
+
 /* Each line of a text that begins so. */
 static int count_lines(const char *text, const char *begin) {
     int count = strncmp(text, begin, strlen(begin)) == 0;
@@ -488,7 +552,8 @@ static void texts_of_engines_compile(void **state) {
     assert_true(scratch_enter(folder));
     for (int k = 0; k < model_count; k++)
         for (size_t t = 0; t < sizeof targets / sizeof *targets; t++)
-            if (k % (models[k].is_lobe ? 5 : 16) == 0) compile(text_of(k, (int)targets[t])->text, targets[t]);
+            if (models[k].cloth || k % (models[k].is_lobe ? 5 : 16) == 0)
+                compile(text_of(k, (int)targets[t])->text, targets[t]);
     assert_true(chdir("/") == 0 && scratch_remove(folder));
 }
 
@@ -504,6 +569,7 @@ int main(void) {
         cmocka_unit_test(several_models_share_one_text),
         cmocka_unit_test(exported_names_have_no_two_underscores),
         cmocka_unit_test(export_descriptors_without_sense_are_refused),
+        cmocka_unit_test(draft_that_a_target_cannot_hold_is_refused_with_what_to_do),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

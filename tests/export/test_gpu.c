@@ -232,6 +232,7 @@ static int begin(void **state) {
     lobe_count = models_lobes(models);
     model_count = lobe_count + models_profiles(models + lobe_count);
     model_count += models_choices(models + model_count);
+    model_count += models_woven(models + model_count);
     if (getenv("WEFT_TEST_LONG")) model_count += models_presets(models + model_count);
     context_create(TEXT_GLSL_330, &contexts[0], NULL);
     context_create(TEXT_GLSL_ES_300, &contexts[1], NULL);

@@ -195,6 +195,7 @@ static int begin(void **state) {
     model_count += models_profiles(models + model_count);
     model_count += models_choices(models + model_count);
     model_count += models_presets(models + model_count);
+    model_count += models_woven(models + model_count);
     return 0;
 }
 

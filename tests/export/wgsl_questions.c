@@ -107,6 +107,7 @@ int main(void) {
     catalogue = count;
     count += models_choices(models + count);
     count += models_presets(models + count);
+    count += models_woven(models + count);
     Arrays arrays = arrays_make();
     printf("const models = [\n");
     for (int k = 0; k < count; k++) {

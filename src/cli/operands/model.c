@@ -140,14 +140,13 @@ static void take_material(Model *model, const char *name, const char *path) {
 /* Takes the cloth that a material of a scene is woven of, if it is woven and the model allows it. */
 static int take_cloth(Model *model, const WeftScene *scene, const char *path) {
     WeftError error;
-    WeftYarn yarns[2];
-    const WeftDraft *draft = weft_scene_cloth(scene, model->material.cloth, yarns);
-    if (!draft) return 0;
+    if (!weft_scene_cloth(scene, model->material.cloth, NULL)) return 0;
     if (!model->weaves) {
         report(0, "warning: %.200s: its weave is left out: only its numbers count here", path);
         return 0;
     }
-    return weft_cloth_create(draft, yarns, 0, &model->cloth, &error) == WEFT_OK ? 0 : report_error(&error);
+    WeftResult result = weft_scene_cloth_copy(scene, model->material.cloth, &model->cloth, &error);
+    return result == WEFT_OK ? 0 : report_error(&error);
 }
 
 static int of_scene(Model *model, const char *path, const char *wanted) {
@@ -162,6 +161,36 @@ static int of_scene(Model *model, const char *path, const char *wanted) {
     if (result == 0) take_material(model, weft_scene_material_name(scene, index), path);
     weft_scene_free(scene);
     return result;
+}
+
+static bool is_draft_file(const char *typed) {
+    return path_ends(typed, ".wif") || path_ends(typed, ".dtx") || path_ends(typed, ".wpo");
+}
+
+/* Returns true for words that begin with the name of a weave. */
+static bool is_notation(const char *typed) {
+    for (int k = 0; weft_weave_name(k); k++) {
+        const size_t size = strlen(weft_weave_name(k));
+        if (strncmp(typed, weft_weave_name(k), size) == 0 && strchr(" ;", typed[size])) return true;
+    }
+    return false;
+}
+
+/* Makes the material of a draft that is woven of cotton, as the key draft of a weave does. Words are named by their
+ * weave. */
+static int of_draft(Model *model, const char *typed) {
+    WeftError error, last = {0};
+    const WeftLog log = {.fn = warned, .user = last.text};
+    WeftScene *scene;
+    model->kind = MODEL_MATERIAL;
+    if (!is_draft_file(typed)) snprintf(model->name, sizeof model->name, "%.*s", (int)strcspn(typed, " ;"), typed);
+    if (weft_scene_load("builtin:ball", &scene, NULL, &error) != WEFT_OK) return report_error(&error);
+    WeftResult result = weft_scene_weave(scene, "ball", "draft", typed, &log, &error);
+    if (result == WEFT_OK) result = weft_scene_weave(scene, "ball", "metres", "1", &log, &error);
+    if (result == WEFT_OK) result = weft_scene_material(scene, 0, &model->material, &error);
+    if (result == WEFT_OK) result = weft_scene_cloth_copy(scene, model->material.cloth, &model->cloth, &error);
+    weft_scene_free(scene);
+    return result == WEFT_OK ? 0 : report_error(&error);
 }
 
 /* Returns the end of the scene's path in "chair.glb:fabric"; NULL if text is not of that form. */
@@ -209,6 +238,7 @@ static int of_name(Model *model, const Parts *parts) {
         return of_scene(model, parts->name, wanted);
     }
     if (path_ends(parts->name, ".json") || path_is_cloth(parts->name)) return of_material(model, parts->name);
+    if (model->weaves && (is_draft_file(parts->name) || is_notation(parts->name))) return of_draft(model, parts->name);
     if (!weft_reflection_readable(parts->name)) return report_unknown(parts->name);
     model->kind = MODEL_MEASURED;
     snprintf(model->path, sizeof model->path, "%s", parts->name);
@@ -251,7 +281,7 @@ void model_warn(const Model *model) {
 
 int model_parse(const char *typed, Model *out) { return parse(typed, false, false, out); }
 
-int model_parse_bare(const char *typed, Model *out) { return parse(typed, true, false, out); }
+int model_parse_bare(const char *typed, Model *out) { return parse(typed, true, true, out); }
 
 int model_prepare(Model *model) {
     WeftError error;

@@ -5,11 +5,13 @@
  *   three:sheen_color=1,sheen_roughness=0.4   an engine profile: a material with these inputs and choices
  *   metallic:base_color=0.2            a workflow, likewise
  *   preset:velvet, velvet.json         a material
+ *   cloth.wif, "twill 2/2 z; both 4k 4w"      a draft, woven of cotton
  *   chair.glb:fabric                   a material of a scene
  *   cotton.binary, felt.bsdf, m1.bin   a measured BRDF in MERL's, RGL's or UTIA's format
  *
  * A kind before the name resolves a name that two kinds share: "lobe:silk", "preset:silk". Textures are left out with
- * a warning: only the numbers of a material count. A weave counts if model_read made its reflection. */
+ * a warning: only the numbers of a material count. A weave counts if model_read made its reflection, and for
+ * model_parse_bare. */
 #pragma once
 
 #include <stdbool.h>
@@ -43,7 +45,7 @@ int model_read(const char *typed, Model *out);
 /* Works as model_read, but makes no reflection and leaves out a weave. */
 int model_parse(const char *typed, Model *out);
 
-/* Works as model_parse, but a profile or workflow has its own defaults and no grey cloth. */
+/* Works as model_parse, but keeps a weave, and a profile or workflow has its own defaults and no grey cloth. */
 int model_parse_bare(const char *typed, Model *out);
 
 /* Makes the reflection of the parsed model; call it again after a change of its numbers. */

@@ -42,6 +42,7 @@ static int read_model(const char *typed, Model *model, WeftExportDesc *desc) {
     } else {
         desc->material = &model->material;
         desc->name = model->name;
+        desc->cloth = model->cloth;
     }
     if (desc->albedo && !desc->lobe)
         return report(WEFT_USAGE, "--albedo: is for a lobe; a material has the tables that it needs");
@@ -125,6 +126,13 @@ static int files_write(const Export *self) {
     return result;
 }
 
+/* Says what the texts of woven materials leave out. */
+static void tell_cloths(const Export *self) {
+    for (int k = 0; k < self->count && !self->quiet; k++)
+        if (self->descs[k].cloth)
+            report(0, "%s: the back of the cloth, hair and normal maps are left out", self->models[k].name);
+}
+
 static int export_run(const Options *options) {
     Export *self = calloc(1, sizeof *self);
     WeftError error;
@@ -134,7 +142,10 @@ static int export_run(const Options *options) {
     if (result == 0 && weft_export_all(self->descs, self->count, &self->made, &error) != WEFT_OK)
         result = report_error(&error);
     if (result == 0) result = files_write(self);
+    if (result == 0) tell_cloths(self);
     weft_export_free(&self->made);
+    for (int k = 0; k < WEFT_EXPORT_MODELS_MAX; k++) model_free(&self->models[k]);
+    model_free(&self->right);
     free(self);
     return result;
 }
@@ -177,7 +188,8 @@ const Verb verb_export = {
     .options = export_options,
     .lists = lists,
     .notes = "MODEL is a lobe, an engine profile, a workflow, a preset (preset:NAME where a\n"
-             "lobe has that name too), a material file .json, or FILE.gltf[:MATERIAL]; all\n"
+             "lobe has that name too), a material file .json, FILE.gltf[:MATERIAL], or a\n"
+             "draft, FILE.wif or words such as \"twill 2/2 z\", which is woven of cotton; all\n"
              "with settings behind it, " MODEL_FORM ".\n"
              "Several share what is the same in them; a second lobe stands on the right half\n"
              "of a Shadertoy. docs/export.md explains the functions, pi, and how engines take\n"
@@ -188,6 +200,7 @@ const Verb verb_export = {
              "  weft export ltc-fibre --target unity -o fuzz.hlsl\n"
              "  weft export charlie-conty-kulla --target godot -o charlie.gdshaderinc\n"
              "  weft export velvet --target c -o velvet.h\n"
+             "  weft export preset:woven-denim --target glsl -o denim.glsl\n"
              "  weft export ggx charlie-neubelt khronos --target glsl -o cloth.glsl\n"
              "  weft export chair.gltf:fabric --target essl --light-pi folded -o chair.glsl\n"
              "  weft export ashikhmin-neubelt charlie-neubelt --target shadertoy -o toy.glsl\n",

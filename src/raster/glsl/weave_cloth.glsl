@@ -24,6 +24,7 @@ float weave_fetch(int row, int channel) {
     return texelFetch(weave_cells, ivec2(row - warps * up, picks + up), 0)[channel];
 }
 
+#include "shading/weave/weave_place.h"
 #include "shading/weave/weave_point.h"
 
 /* Return the yarn, or its numbers from afar, that begin at number k, and move k behind them. */
@@ -62,10 +63,10 @@ Weave material_cloth() {
 
 /* Returns the place of a fragment on the cloth, in warp threads from the left and picks from the bottom. */
 vec2 weave_place() {
-    float c = weave_number(CLOTH_ROTATION_COS), s = weave_number(CLOTH_ROTATION_SIN);
-    vec2 uv = texcoord_0;
-    return vec2(weave_in_range((c * uv.x - s * uv.y) * weave_number(CLOTH_PER_U)),
-                weave_in_range((-c * uv.y - s * uv.x) * weave_number(CLOTH_PER_V)));
+    WeavePlacing p = WeavePlacing(weave_number(CLOTH_PER_U), weave_number(CLOTH_PER_V),
+                                  weave_number(CLOTH_ROTATION_COS), weave_number(CLOTH_ROTATION_SIN));
+    Dir at = weave_place_of(p, texcoord_0.x, texcoord_0.y);
+    return vec2(at.x, at.y);
 }
 
 /* Returns true if the fragment lies in a gap between threads. */

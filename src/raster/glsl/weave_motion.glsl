@@ -3,7 +3,7 @@
 
 /* Returns how far away the cloth is, 0 to 1. The lobes of both systems take over from the point of a thread where four
  * shading points stand side by side on it, since their colours still tell threads apart. */
-float pixel_far(WeaveFootprint f) { return smoothstep(0.25, 0.5, f.longest); }
+float pixel_far(WeaveFootprint f) { return weave_far_weight_alone(f); }
 
 int pixel_points(WeaveFootprint f, float far) { return far < 1.0 ? 1 : 0; }
 

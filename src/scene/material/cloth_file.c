@@ -322,6 +322,14 @@ const WeftDraft *weft_scene_cloth(const WeftScene *scene, int cloth, WeftYarn ya
     return of->draft;
 }
 
+WeftResult weft_scene_cloth_copy(const WeftScene *scene, int cloth, WeftCloth **out, WeftError *error) {
+    *out = NULL;
+    if (cloth < 1 || cloth > scene->cloth_count)
+        return fail(error, WEFT_MESSAGE_DESC, "cloth", "the scene has none of number %d", cloth);
+    *out = cloth_copy(scene->cloths[cloth - 1]);
+    return *out ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+}
+
 WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft *draft, const WeftYarn yarns[2],
                                 WeftError *error) {
     const bool there = material >= 0 && material < scene_own_materials(scene);

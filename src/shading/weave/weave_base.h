@@ -35,6 +35,13 @@ FN float weave_far_weight(WeaveFootprint f) {
     return t * t * (3.0f - 2.0f * t);
 }
 
+/* Returns w for pixels of a single point. Two points side by side on a thread still tell it from its neighbours by their
+ * colours, and so do its colours from afar. */
+FN float weave_far_weight_alone(WeaveFootprint f) {
+    float t = clamp(4.0f * f.longest - 1.0f, 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
 /* Returns the mipmap level for a footprint. warps, picks: threads that a texel of level 0 spans. */
 FN float weave_far_level(WeaveFootprint f, float warps, float picks) {
     return log2(max(max(f.x / warps, f.y / picks), 1.0f));
@@ -128,6 +135,15 @@ FN Rgb weave_far_multiple(const Weave *m, bool weft, Rgb c, float covers, float 
     return weave_worn(weave_dyed_multiple_rgb(c, covers, dye), covers * open * weave_core_multiple(y), wear * raised);
 }
 
+/* Return the same for the system's lobe: times the factor that gives it the mean of points. */
+FN Rgb weave_fitted_single(const Weave *m, bool weft, Rgb c, float covers, float dye, float wear) {
+    return rgb_scale(weave_far_single(m, weft, c, covers, dye, wear), weft ? m->weft_far.single : m->warp_far.single);
+}
+FN Rgb weave_fitted_multiple(const Weave *m, bool weft, Rgb c, float covers, float dye, float wear) {
+    return rgb_scale(weave_far_multiple(m, weft, c, covers, dye, wear),
+                     weft ? m->weft_far.multiple : m->warp_far.multiple);
+}
+
 /* Returns the threads of one system. single, multiple: the colours that the cloth has of these threads, which cover so
  * much of it. So the colours of the base contain the share, which the lobe must not apply a second time. */
 FN WeaveBase weave_far(const Weave *m, bool weft, Rgb single, Rgb multiple, float covers, float dye, float wear) {
@@ -142,9 +158,7 @@ FN WeaveBase weave_far(const Weave *m, bool weft, Rgb single, Rgb multiple, floa
     b.lobe.params[WOVEN_ROUNDNESS] = w.roundness;
     b.lobe.params[WOVEN_FLOATS] = w.floats;
     b.lobe.params[WOVEN_CROSS_CRIMP] = w.cross_crimp;
-    b.single =
-        rgb_scale(weave_far_single(m, weft, single, covers, dye, wear), weft ? m->weft_far.single : m->warp_far.single);
-    b.multiple = rgb_scale(weave_far_multiple(m, weft, multiple, covers, dye, wear),
-                           weft ? m->weft_far.multiple : m->warp_far.multiple);
+    b.single = weave_fitted_single(m, weft, single, covers, dye, wear);
+    b.multiple = weave_fitted_multiple(m, weft, multiple, covers, dye, wear);
     return b;
 }

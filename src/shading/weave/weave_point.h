@@ -125,23 +125,23 @@ FN WeaveCell weave_cell(const Weave *m, float warp, float pick) {
 
 /* A place in a run. */
 STRUCT(WeaveRun) {
-    float length;     /* l, at least 1 */
-    float per_length; /* 1 / l */
-    float up;         /* 1 on top, -1 below */
-    float ends;       /* 1, or 0 if the run never ends; a factor, since a branch would stop vectorisation */
-    float s, k;       /* as at the top of this file */
-    float s_k;        /* |s|^k */
+    float crossings;    /* l, at least 1 */
+    float per_crossing; /* 1 / l */
+    float up;           /* 1 on top, -1 below */
+    float ends;         /* 1, or 0 if the run never ends; a factor, since a branch would stop vectorisation */
+    float s, k;         /* as at the top of this file */
+    float s_k;          /* |s|^k */
 };
 /* Returns a thread's place v, in crossings, as a place in its run. since: crossings since the run began; run: its
  * length, negative if the thread is below, 0 if the run never ends. */
 FN WeaveRun weave_run(float floats, float v, float since, float run) {
     WeaveRun a;
     a.ends = abs(run) > 0.5f ? 1.0f : 0.0f;
-    a.length = max(abs(run), 1.0f);
-    a.per_length = 1.0f / a.length;
-    a.s = a.ends * (2.0f * (v - floor(v) + since) * a.per_length - 1.0f);
+    a.crossings = max(abs(run), 1.0f);
+    a.per_crossing = 1.0f / a.crossings;
+    a.s = a.ends * (2.0f * (v - floor(v) + since) * a.per_crossing - 1.0f);
     a.up = run < 0.0f ? -1.0f : 1.0f;
-    a.k = 1.0f + floats * (a.length - 1.0f);
+    a.k = 1.0f + floats * (a.crossings - 1.0f);
     a.s_k = pow(max(abs(a.s), 1e-3f), a.k);
     return a;
 }
@@ -163,9 +163,9 @@ FN float weave_noise_over(float seed, float octave, float x, float y) {
 
 /* Returns the factor on the amount of dye at u, v, as for weave_thread, that varies over many threads: in bars across
  * the system, where one lot of the yarn ends and the next begins, and in patches, which both systems share. Bars have
- * three octaves and patches two. A cloth that repeats has neither. width, length: of the footprint across the threads
+ * three octaves and patches two. A cloth that repeats has neither. width, reach: of the footprint across the threads
  * and along them, in threads and in crossings. */
-FN float weave_lot_dye(const Weave *m, WeaveYarn y, bool weft, float u, float v, float width, float length) {
+FN float weave_lot_dye(const Weave *m, WeaveYarn y, bool weft, float u, float v, float width, float reach) {
     float bars = 0.0f, nodes = y.barre_nodes, row = weft ? 3.0f : 0.0f;
     ROUNDS(k, 3) {
         float octave = to_float(k);
@@ -176,7 +176,7 @@ FN float weave_lot_dye(const Weave *m, WeaveYarn y, bool weft, float u, float v,
     float patches = 0.0f, across = y.uneven_nodes, along = y.uneven_nodes * y.crossing;
     ROUNDS(k, 2) {
         float a = u * across, b = v * along, octave = to_float(k);
-        patches = patches + (0.9f - 0.3f * octave) * weave_unblurred(max(width * across, length * along)) *
+        patches = patches + (0.9f - 0.3f * octave) * weave_unblurred(max(width * across, reach * along)) *
                                 weave_noise_over(m->seed, octave, weft ? b : a, weft ? a : b);
         across = 3.0f * across;
         along = 3.0f * along;
@@ -196,10 +196,10 @@ FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, floa
     float crimp = a.ends * y.crimp * (1.0f + 0.5f * y.wander * bends);
     float aside = 0.12f * y.wander * slow.first;
     float thick = 1.0f + y.slub * (0.35f * slow.second + 0.12f * bends);
-    float swell = a.up > 0.0f ? y.bulge * (1.0f - a.s * a.s) * (1.0f - a.per_length) : 0.0f;
+    float swell = a.up > 0.0f ? y.bulge * (1.0f - a.s * a.s) * (1.0f - a.per_crossing) : 0.0f;
     float width = min(y.width * max(thick, 0.2f) * (1.0f + swell), 2.0f - 2.0f * abs(aside));
     float r = 2.0f * (u - c - 0.5f - aside) / width;
-    float arc = a.up * 0.5f * a.length * y.cross_pitch * crimp * (1.0f - abs(a.s) * a.s_k) / (a.k + 1.0f);
+    float arc = a.up * 0.5f * a.crossings * y.cross_pitch * crimp * (1.0f - abs(a.s) * a.s_k) / (a.k + 1.0f);
 
     WeavePoint p;
     p.height = abs(r) < 1.0f ? arc + 0.25f * width * y.pitch * y.roundness * (1.0f - r * r) : WEAVE_NONE;

@@ -12,10 +12,11 @@ typedef struct Word {
 /* The words that a language spells differently. */
 static const Word glsl_words[] = {{"Dir", "vec3"}, {"Rgb", "vec3"}, {NULL, NULL}};
 static const Word hlsl_words[] = {{"Dir", "float3"}, {"Rgb", "float3"}, {"mix", "lerp"}, {NULL, NULL}};
-static const Word c_words[] = {{"abs", "fabsf"}, {"floor", "floorf"}, {"sqrt", "sqrtf"}, {"sin", "sinf"},
-                               {"cos", "cosf"},  {"exp", "expf"},     {"exp2", "exp2f"}, {"log2", "log2f"},
-                               {"pow", "powf"},  {NULL, NULL}};
-static const Word wgsl_words[] = {{"Dir", "vec3f"}, {"Rgb", "vec3f"}, {"float", "f32"}, {"int", "i32"}, {NULL, NULL}};
+static const Word c_words[] = {{"abs", "fabsf"}, {"floor", "floorf"},  {"sqrt", "sqrtf"}, {"sin", "sinf"},
+                               {"cos", "cosf"},  {"exp", "expf"},      {"exp2", "exp2f"}, {"log2", "log2f"},
+                               {"pow", "powf"},  {"uint", "unsigned"}, {NULL, NULL}};
+static const Word wgsl_words[] = {{"Dir", "vec3f"}, {"Rgb", "vec3f"}, {"float", "f32"},
+                                  {"int", "i32"},   {"uint", "u32"},  {NULL, NULL}};
 static const Word *const words_of[] = {glsl_words, hlsl_words, c_words, wgsl_words};
 
 static const Word c_helpers[] = {
@@ -70,8 +71,8 @@ static const Word *find_word(const Word *words, Token name) {
 
 /* Writes a number. A float in C ends in f. */
 static void put_number(const Speller *speller, Token number, Buffer *out) {
-    bool real = false, f = number.at[number.size - 1] == 'f';
-    for (size_t k = 0; k < number.size; k++) real |= number.at[k] == '.' || number.at[k] == 'e';
+    bool real = false, f = number.at[number.size - 1] == 'f', whole = number.at[number.size - 1] == 'u';
+    for (size_t k = 0; k < number.size; k++) real |= !whole && (number.at[k] == '.' || number.at[k] == 'e');
     buffer_put(out, number.at, number.size - (real && f));
     if (speller->language == SPELL_C && real) buffer_put(out, "f", 1);
 }
@@ -88,24 +89,27 @@ static void put_vector(const Speller *speller, const char *spelt, bool made, con
 /* Writes a name that is no member's and that ends at c. */
 static void put_word(const Speller *speller, const Items *items, Token name, const char *c, const char *end,
                      Buffer *out) {
-    bool call = token_is(token_solid(&c, end), "(");
+    bool call = token_is(token_peek(c, end), "(");
     const Word *word = find_word(words_of[speller->language], name);
-    bool vector = is_vector(speller, name), cast = token_is(name, "float") || token_is(name, "int");
-    bool type = speller->language == SPELL_WGSL; /* all of its words are types */
+    bool vector = is_vector(speller, name), whole = token_is(name, "uint");
+    bool cast = token_is(name, "float") || token_is(name, "int") || whole;
+    bool type = speller->language == SPELL_WGSL || whole; /* all words of WGSL are types */
     const Item *item = vector ? NULL : items_find(items, name);
-    if (word && (call || vector || type))
+    if (speller->language == SPELL_C && call && cast) {
+        buffer_put(out, "(", 1);
+        if (word)
+            buffer_put_text(out, word->spelt);
+        else
+            buffer_put(out, name.at, name.size);
+        buffer_put(out, ")", 1);
+    } else if (word && (call || vector || type))
         put_vector(speller, word->spelt, vector && call, c, end, out);
     else if (item)
         put_name(speller, item, out);
     else if (speller->language == SPELL_C && call && find_word(c_helpers, name))
         put_name(speller, &(Item){.kind = ITEM_FUNCTION, .name = name}, out);
-    else if (speller->language == SPELL_C && call && cast) {
-        buffer_put(out, "(", 1);
+    else
         buffer_put(out, name.at, name.size);
-        buffer_put(out, ")", 1);
-    } else {
-        buffer_put(out, name.at, name.size);
-    }
 }
 
 /* Returns true if a function's parameter of that place is written. */

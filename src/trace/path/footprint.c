@@ -92,8 +92,8 @@ FN UvEdges edges_of(const Chunk *chunk, const float forward[3], const float pixe
 }
 
 /* Returns the footprint of a pixel with edges a and b on the cloth. */
-FN WeaveFootprint footprint_of(ClothPlacing cloth, UvEdge a, UvEdge b) {
-    Dir first = cloth_threads(cloth, a.u, a.v), second = cloth_threads(cloth, b.u, b.v);
+FN WeaveFootprint footprint_of(WeavePlacing cloth, UvEdge a, UvEdge b) {
+    Dir first = weave_threads(cloth, a.u, a.v), second = weave_threads(cloth, b.u, b.v);
     return weave_footprint(first.x, first.y, second.x, second.y);
 }
 
@@ -103,7 +103,7 @@ LOOP(footprints_n, (Chunk *restrict chunk, const PathContext *context, const Wef
     ClothLooks *to = &chunk->cloth_points;
     const float forward[3] = {context->forward[0], context->forward[1], context->forward[2]};
     const float pixel[2] = {context->pixel_width[0], context->pixel_width[1]};
-    ClothPlacing placing = cloth_placing(cloth);
+    WeavePlacing placing = cloth_placing(cloth);
     uint32_t pair = SAMPLER_CLOTH + (uint32_t)depth;
     EACH(k, (size_t)n) {
         UvEdges edges = edges_of(chunk, forward, pixel, depth > 0, k);
