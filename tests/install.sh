@@ -49,6 +49,11 @@ weft bake audit "$work/e.npy" --lobe charlie-neubelt --axes cos,alpha,centres --
 "$work/opengl/build/velvet" "$work/points.png" 8
 weft diff "$work/tables.png" "$work/points.png" --max 1e-3 >/dev/null
 
+# denim of one point a pixel has the light of denim of sixteen, near and from afar
+"$work/weave/build/denim" "$work/one.png" 1
+"$work/weave/build/denim" "$work/sixteen.png" 16
+weft diff "$work/one.png" "$work/sixteen.png" --max 0.2 >/dev/null
+
 # the Python package that was installed finds the library that was installed
 PYTHONPATH="$work/prefix/lib/python3/dist-packages" python3 -c 'import weft; print(weft.version(), weft.__file__)' |
     grep -q "$work/prefix/lib/python3"
