@@ -2,18 +2,18 @@
  * one directional light, its softbox and the environment, with shadows, and nanoseconds a pixel over the bare base
  *
  *   bench_raster [--quick]
- *   bench_raster --moving [SCENE MAP.hdr]
+ *   bench_raster --moving [NAME | SCENE MAP.hdr]
  *   bench_raster --sampled [--shader-dir DIR] [--only NAME]... [MAP.hdr]
  *   bench_raster --woven [--shader-dir DIR] [--width N]
  *
  * Every lobe is drawn in turn, several rounds; the least time of a frame counts. The processor's own part is
- * that of a frame whose draw calls do nothing. --moving: frames of an orbit of builtin:cloth as it comes, or of a scene
- * under a map, as the window draws them in motion, beside those at rest (docs/raster.md). --sampled: what lobes that are
- * sampled take under an environment and no other light, against the strategy `fitted` for the same lobe
- * (docs/environment.md). --woven: what the cloth takes in denim, in both engines, against the scene as it comes, from
- * threads close up to all of the cloth (docs/weave-evidence.md). With shaders of a folder or a width (640 without) only
- * the raster engine is measured: a graphics card takes so little for 640 that the processor's part counts, so give it
- * 3840; 16 to 16384 are taken. */
+ * that of a frame whose draw calls do nothing. --moving: frames of an orbit of builtin:cloth as it comes (NAME: that row
+ * alone), or of a scene under a map, as the window draws them in motion, beside those at rest (docs/raster.md).
+ * --sampled: what lobes that are sampled take under an environment and no other light, against the strategy `fitted`
+ * for the same lobe (docs/environment.md). --woven: what the cloth takes in denim, in both engines, against the scene
+ * as it comes, from threads close up to all of the cloth (docs/weave-evidence.md). With shaders of a folder or a width
+ * (640 without) only the raster engine is measured: a graphics card takes so little for 640 that the processor's part
+ * counts, so give it 3840; 16 to 16384 are taken. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdbool.h>
@@ -311,30 +311,39 @@ static void measure_moving(const char *name, WeftScene *scene) {
     weft_scene_free(scene);
 }
 
-static int moving_main(int argc, char **argv) {
-    static const char *const lobes[] = {"charlie-neubelt", "fibre-table"};
+/* Returns builtin:cloth with a row's sheen, or the last row's weave. */
+static WeftScene *moving_cloth(const char *name, bool woven) {
     WeftScene *scene;
     WeftError error;
-    if (argc != 2 && argc != 4) refuse(argv[argc - 1]);
-    printf("1280 x 720, one sample a pixel, softbox with soft shadow, ms a frame; of an orbit the median, the time of "
-           "the\n"
-           "process over two cores, and the worst over the median; the difference is that to the picture at rest\n\n"
-           "| scene | pixels a point | at rest | orbit | processor | worst | difference "
-           "|\n|---|---|---|---|---|---|---|\n");
+    check(weft_scene_load("builtin:cloth", &scene, NULL, &error), &error);
+    if (woven)
+        check(weft_scene_assign_material(scene, "Cloth", "preset:woven-denim", NULL, &error), &error);
+    else
+        check(weft_scene_set(scene, "*.sheen_lobe", name, NULL, &error), &error);
+    return scene;
+}
+
+static int moving_main(int argc, char **argv) {
+    enum { ROWS = 3 };
+    static const char *const rows[ROWS] = {"charlie-neubelt", "fibre-table", "woven-denim"};
+    bool known = argc != 3;
+    WeftScene *scene;
+    WeftError error;
+    for (int k = 0; k < ROWS; k++) known |= argc == 3 && strcmp(argv[2], rows[k]) == 0;
+    if (!known || argc > 4) refuse(argv[argc - 1]);
+    printf(
+        "1280 x 720, one sample a pixel, softbox with soft shadow, ms a frame; of an orbit the median, the time of the "
+        "process over two cores, and the worst over the median; the difference is that to the picture at rest\n\n"
+        "| scene | pixels a point | at rest | orbit | processor | worst | difference "
+        "|\n|---|---|---|---|---|---|---|\n");
     if (argc == 4) {
         check(weft_scene_load(argv[2], &scene, NULL, &error), &error);
         check(weft_scene_set_environment_file(scene, argv[3], NULL, &error), &error);
         measure_moving(argv[2], scene);
         return 0;
     }
-    for (int k = 0; k < 2; k++) {
-        check(weft_scene_load("builtin:cloth", &scene, NULL, &error), &error);
-        check(weft_scene_set(scene, "*.sheen_lobe", lobes[k], NULL, &error), &error);
-        measure_moving(lobes[k], scene);
-    }
-    check(weft_scene_load("builtin:cloth", &scene, NULL, &error), &error);
-    check(weft_scene_assign_material(scene, "Cloth", "preset:woven-denim", NULL, &error), &error);
-    measure_moving("woven-denim", scene);
+    for (int k = 0; k < ROWS; k++)
+        if (argc < 3 || strcmp(argv[2], rows[k]) == 0) measure_moving(rows[k], moving_cloth(rows[k], k == ROWS - 1));
     return 0;
 }
 
