@@ -110,7 +110,7 @@ double map_fit_error_now(const MapFit *fit, double *sky);
  * alone, and a cloth whose threads lean to one side in the mean would reflect to that side. */
 void map_fit_center(MapFit *fit, int first, int per, const LookTexel *whole);
 
-/* What the occlusion map does: 1 - strength (1 - factor open), of the visible fraction of the sky. */
+/* The values of an occlusion map: 1 - strength (1 - factor open), open being the visible fraction of the sky. */
 typedef struct MapOcclusion {
     float strength, factor;
 } MapOcclusion;

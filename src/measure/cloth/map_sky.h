@@ -1,4 +1,4 @@
-/* map_sky.h - what viewers make of an even sky
+/* map_sky.h - the light of an even sky, as viewers make it
  *
  * Engines light by an environment in another way than by lights: with the split sum of a round highlight, whatever its
  * anisotropy; with the light between facets, which paint below loses; and with a sheen that is a table times the
