@@ -255,8 +255,8 @@ int shadow_view_count(const Shadow *self) {
 /* Returns a direction of the face along z as that of another face. */
 static Vec3 on_face(Vec3 v, int face) {
     const Vec3 w = face % 2 ? vec3(-v.x, v.y, -v.z) : v;
-    const Vec3 turned[] = {{w.z, w.x, w.y}, {w.y, w.z, w.x}, w};
-    return turned[face / 2];
+    const Vec3 by_axis[] = {{w.z, w.x, w.y}, {w.y, w.z, w.x}, w};
+    return by_axis[face / 2];
 }
 
 View shadow_view(const Shadow *self, int point) {
