@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "text/source/number_text.h"
+#include "weave/weft_cloth.h"
 
 /* The most elements of a WGSL array expression: "WebGPU Shading Language", section 2.3. */
 enum { WGSL_ARRAY = 2047 };
@@ -14,7 +15,7 @@ enum { WGSL_ARRAY = 2047 };
 /* The most elements of all indexed arrays of constants in Direct3D 11: the size of a shader's immediate constant buffer. */
 enum { HLSL_ARRAYS = 4096 };
 
-/* The most numbers of all tables in a text: what a Shadertoy compiles, and of C ten megabytes. */
+/* The most numbers of a cloth's tables in a Shadertoy, and of all tables in C, which are ten megabytes of text. */
 enum { TOY_TEXELS = 8192, C_TEXELS = 1 << 20 };
 
 /* The longest side of a texture: "WebGPU", section 3.6.2; Direct3D 11, "Resource Limits". Drivers of OpenGL have the
@@ -196,6 +197,12 @@ static const char *title(const Draft *draft) {
     return desc->name ? desc->name : desc->profile ? desc->profile : weft_export_target_name((int)desc->target);
 }
 
+/* Returns true for a table of the draft's cloth. */
+static bool is_cloth(const Draft *draft, const TextTable *t) {
+    const WeftCloth *cloth = draft->desc->cloth;
+    return cloth && (t->texels == cloth->runs || t->texels == cloth->albedos || t->texels == draft->colors);
+}
+
 WeftResult draft_tables_fit(const Draft *draft, WeftError *error) {
     const WeftExportTarget target = draft->desc->target;
     const int most = target == WEFT_EXPORT_SHADERTOY ? TOY_TEXELS : C_TEXELS;
@@ -205,7 +212,7 @@ WeftResult draft_tables_fit(const Draft *draft, WeftError *error) {
         const TextTable *t = &draft->tables->all[k];
         if (!draft->tables->used[k]) continue;
         if (in_text(draft, k))
-            inside += (long long)t->rows * t->columns;
+            inside += target == WEFT_EXPORT_SHADERTOY && !is_cloth(draft, t) ? 0 : (long long)t->rows * t->columns;
         else if (target != WEFT_EXPORT_C && (t->columns > side || t->rows > side))
             return fail(error, WEFT_MESSAGE_DESC, title(draft),
                         "a texture of %d x %d texels (%s), where %s has at most %d a side: take a smaller draft",

@@ -87,7 +87,7 @@ static void woven_material_is_exported_with_its_threads(void **state) {
     ran_free(&ran);
     ran = run_with(NULL, LIST("export", "preset:woven-tartan", "--target", "shadertoy", "-o", "toy"));
     assert_int_equal(ran.code, WEFT_USAGE);
-    assert_non_null(strstr(ran.err, "woven-tartan: is invalid: tables of 559680 numbers"));
+    assert_non_null(strstr(ran.err, "woven-tartan: is invalid: tables of "));
     assert_non_null(strstr(ran.err, "take another target, or a smaller draft"));
     ran_free(&ran);
 }

@@ -134,7 +134,7 @@ static inline int models_presets(Exported *out) {
 static inline int models_woven(Exported *out) {
     static const char *const ids[] = {"woven-denim", "woven-linen", "a_weave"}, *const layers[][2] = {
                                                                                     {"weave.draft",
-                                                                                     "herringbone 2/2 8; warp 4k 2r"},
+                                                                                     "twill 2/2 z; warp 2k 2r"},
                                                                                     {"weave.warp", "wool"},
                                                                                     {"weave.rotation", "30"},
                                                                                     {"weave.metres", "1"},
