@@ -500,6 +500,8 @@ class WeftBaking(Structure):
         ("levels", c_int),
         ("one_face", c_int),
         ("losses", POINTER(WeftLosses)),
+        ("progress", WeftProgress),
+        ("user", c_void_p),
     ]
 
 
@@ -604,6 +606,7 @@ class WeftExportDesc(Structure):
         ("fold_pi", c_int),
         ("prefix", c_char_p),
         ("call", c_char_p),
+        ("ambient", c_int),
         ("cloth", c_void_p),
     ]
 
@@ -1459,6 +1462,7 @@ ENUMS = {
         "u3m-coat-normal": 52,
         "u3m-green": 53,
         "u3m-normal-space": 54,
+        "image-basis": 55,
     },
     "WeftFindingOf": {
         "asset": 0,
@@ -1911,6 +1915,7 @@ CALLS = {
     "weft_raster_refresh": (c_int, (c_void_p,)),
     "weft_raster_finish": (None, (c_void_p,)),
     "weft_raster_return_memory": (None, ()),
+    "weft_raster_rest": (None, (c_void_p,)),
     "weft_raster_info": (WeftRasterInfo, (c_void_p,)),
     "weft_root_use": (c_int, (c_char_p, POINTER(WeftError),)),
     "weft_scene_save_material": (c_int, (c_void_p, c_int, c_char_p, POINTER(WeftError),)),
