@@ -168,8 +168,9 @@ static void shadows_of_a_cloth_are_the_path_tracers(void **state) {
     weft_scene_free(scene);
 }
 
-/* Returns sum |drawn - traced| over the sum of what is traced, of a lamp at a height over the middle of three walls. */
-static double off_by_point(float height) {
+/* Returns sum |drawn - traced| over the sum of what is traced, of a lamp at a height over the middle of three walls, on
+ * a ground that reaches as far as this, or none. */
+static double off_by_point(float height, float ground) {
     static const char camera[] = "0.2,2,1.5;0,0,0;50";
     const WeftLight lamp = {.kind = WEFT_LIGHT_POINT, .position = {0.1f, height, 0.05f}, .color = {3.0f, 3.0f, 3.0f}};
     WeftScene *scene = test_scene();
@@ -183,6 +184,9 @@ static double off_by_point(float height) {
     test_quad(scene, vec3(-0.3f, 0.0f, 0.3f), vec3(0.0f, 0.0f, -0.6f), vec3(0.0f, 0.4f, 0.0f));
     test_quad(scene, vec3(0.4f, 0.0f, 0.3f), vec3(0.0f, 0.0f, -0.6f), vec3(0.0f, 0.4f, 0.0f));
     test_quad(scene, vec3(-0.3f, 0.0f, -0.4f), vec3(0.6f, 0.0f, 0.0f), vec3(0.0f, 0.3f, 0.0f));
+    if (ground > 0.0f)
+        test_quad(scene, vec3(-ground, -0.01f, ground), vec3(2.0f * ground, 0.0f, 0.0f),
+                  vec3(0.0f, 0.0f, -2.0f * ground));
     scene_bounds(scene);
     test_environment(scene, 0.0f);
     assert_int_equal(weft_scene_add_light(scene, &lamp, NULL), WEFT_OK);
@@ -203,13 +207,14 @@ static double off_by_point(float height) {
     return off / sum;
 }
 
-/* Above the walls, near them, and between them. Without shadows 20 % are off. */
+/* Above the walls, near them, and between them, also on a wide ground. Without shadows 20 % are off. */
 static void point_light_casts_the_path_tracers_shadow(void **state) {
     (void)state;
     need_gl();
-    assert_true(off_by_point(2.5f) < 0.04);
-    assert_true(off_by_point(0.8f) < 0.05);
-    assert_true(off_by_point(0.2f) < 0.05);
+    assert_true(off_by_point(2.5f, 0.0f) < 0.04);
+    assert_true(off_by_point(0.8f, 0.0f) < 0.05);
+    assert_true(off_by_point(0.2f, 0.0f) < 0.05);
+    assert_true(off_by_point(0.2f, 100.0f) < 0.05);
 }
 
 int main(void) {

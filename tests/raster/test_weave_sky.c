@@ -127,7 +127,7 @@ static void weaves_reflect_what_they_reflect_in_the_path_tracer(void **state) {
     assert_true(all);
 }
 
-/* Threads as wide as half of the space that they have. */
+/* Threads as wide as .6 of the space that they have. */
 static void gaps_stay_open(void **state) {
     (void)state;
     need_gl();

@@ -82,7 +82,8 @@ static void put_polygon(const LightPolygon *polygon, int k, Picture *out) {
 static void put_shadow(const Shadow *shadow, int k, int first, Picture *out) {
     const View *view = &shadow->view;
     const float place[4] = {view->eye.x, view->eye.y, view->eye.z, view->orthographic ? shadow->texel : -shadow->texel};
-    const float half = vec3_length(view->across), soft[4] = {half, (float)first, (float)shadow->faces, 0.0f};
+    const float half = vec3_length(view->across), tile = (float)SHADOW_TILE / (float)SHADOW_SIDE;
+    const float soft[4] = {half, (float)first, (float)shadow->faces, tile};
     put_matrix(view, shadow->depths, out->shadow_clip[k]);
     memcpy(out->shadow_eye[k], place, sizeof place);
     memcpy(out->shadow_soft[k], soft, sizeof soft);

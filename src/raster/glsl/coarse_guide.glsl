@@ -17,8 +17,8 @@ vec4 coarse_guide(vec3 normal, float surface) {
     return vec4(n.z < 0.0 ? folded : n.xy, coarse_depth(), surface);
 }
 
-/* Returns depth and number of a guide in one number, 0 where there is no surface: the number is in the lowest bits, so the
- * depth is within 0.004 %. */
+/* Returns depth and number of a guide in one number, 0 where there is no surface: the number is in the lowest bits, which
+ * adds less than 0.004 % to the error of the half float that the depth was. */
 float coarse_packed(vec4 guide) {
     float depth = clamp(guide.z, 1e-6, 6e4); /* halves may be 0 or infinite */
     uint bits = (floatBitsToUint(depth) & 0xffffff00u) | uint(guide.w);

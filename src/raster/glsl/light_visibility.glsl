@@ -22,10 +22,11 @@ vec4 fragment_open() { return gl_FrontFacing ? vertex_open_front : vertex_open_b
  * is 0. width: half the cosine that the light spans. */
 float above_plane(float cosine, float width) { return clamp(0.5 + 0.5 * cosine / width, 0.0, 1.0); }
 
-/* Returns the fraction of the light about d, of what the shading normal sees, that comes from above the smooth surface,
- * as the path tracer counts it. Without a map the two are one plane. */
-float above_smooth(Frame f, Dir d, float width) {
-    float smooth_part = above_plane(dir_dot(d, smooth_normal), width), part = above_plane(dir_dot(d, f.z), width);
+/* Returns the fraction of the light about d, of what the shading normal sees, that comes from one side of the smooth
+ * surface, as the path tracer counts it: side 1 is above, -1 behind. Without a map the two are one plane. */
+float beside_smooth(Frame f, Dir d, float width, float side) {
+    float smooth_part = above_plane(side * dir_dot(d, smooth_normal), width);
+    float part = above_plane(side * dir_dot(d, f.z), width);
     return smooth_part < part ? smooth_part / part : 1.0;
 }
 
@@ -44,7 +45,7 @@ float ambient_sky_visibility(Frame f, Dir w, float kappa, float cos_i, float occ
     Dir d = frame_from(f, w);
     float ramp = c.x + c.y * d.x + c.z * d.y + c.w * d.z;
     float seen = clamp(0.5 + steepness(c.yzw, kappa) * (ramp - 0.5), 0.0, 1.0);
-    return min(seen * above_smooth(f, d, clamp(inversesqrt(kappa), 0.02, 1.0)), occlusion_cone(texture_occlusion, cos_i));
+    return min(seen * beside_smooth(f, d, clamp(inversesqrt(kappa), 0.02, 1.0), 1.0), occlusion_cone(texture_occlusion, cos_i));
 }
 
 /* Returns direction w deflected towards the visible sky. A Gaussian of variance 1 / kappa times V = open + c . x has
@@ -73,10 +74,16 @@ float env_light_seen(int k) {
 float env_light_seen(int k) { return k < 0 ? -1.0 : k < 4 ? vertex_lights_0[k] : vertex_lights_1[k - 4]; }
 #endif
 
-float ambient_light_visibility(Frame f, int k, float occlusion) {
+/* Returns the visible fraction of light k on a side. open: that of the sky there. creases: what a texture leaves. */
+float env_light_beside(Frame f, int k, float open, float creases, float side) {
     float seen = env_light_seen(k);
     vec3 d = environment_world(ENVIRONMENT_LIGHTS[2 * k].xyz);
     float width = 1.732 * exp2(-0.5 * environment_terms[0].w); /* even light of the lights' mean spread */
-    float above = above_smooth(f, dir(d.x, d.y, d.z), width);
-    return seen < -0.5 ? occlusion : clamp(seen, 0.0, 1.0) * texture_occlusion * above;
+    float beside = beside_smooth(f, dir(d.x, d.y, d.z), width, side);
+    return seen < -0.5 ? open : clamp(seen, 0.0, 1.0) * creases * beside;
 }
+
+float ambient_light_visibility(Frame f, int k, float occlusion) {
+    return env_light_beside(f, k, occlusion, texture_occlusion, 1.0);
+}
+float ambient_light_behind(Frame f, int k, float open) { return env_light_beside(f, k, open, 1.0, -1.0); }

@@ -26,7 +26,7 @@
     ONE(vec4, forward)                    /* unit vector along the camera; w: number of punctual lights */   \
     MANY(mat4, shadow_clip, SHADOWS_MOST) /* from world space less shadow_eye.xyz */                         \
     MANY(vec4, shadow_eye, SHADOWS_MOST)  /* w: width of a texel, m; below 0: of one at distance 1 */        \
-    MANY(vec4, shadow_soft, SHADOWS_MOST) /* half; the map's first layer in soft_map; faces of a cube or 0 */ \
+    MANY(vec4, shadow_soft, SHADOWS_MOST) /* half; the map's first layer in soft_map; faces of a cube or 0; side of a tile */ \
     MANY(vec4, shadow_points, SHADOWS_MOST * SHADOW_POINTS)                                                   \
     MANY(vec4, lights, 4 * PICTURE_LIGHTS)                                                                   \
     MANY(vec4, polygon_corners, PICTURE_CORNERS * PICTURE_POLYGONS)                                           \

@@ -34,7 +34,7 @@ float shadow_light(int map, vec3 place, vec3 normal, float cosine) {
     vec3 at = 0.5 + 0.5 * clip.xyz / clip.w;
     if (clip.w <= 0.0 || abs(at.x - 0.5) > 0.5 || abs(at.y - 0.5) > 0.5) return 1.0;
     at.z = min(at.z, 1.0); /* a point beyond the map's depths */
-    if (amid) at.xy = (at.xy + vec2(mod(face, 3.0), floor(face / 3.0))) * (682.0 / 2048.0);
+    if (amid) at.xy = (at.xy + vec2(mod(face, 3.0), floor(face / 3.0))) * shadow_soft[map].w;
     float step = 1.0 / 2048.0, layer = float(map), sum = 0.0;
     sum += texture(shadow_map, vec4(at.x - 0.4 * step, at.y - 1.1 * step, layer, at.z));
     sum += texture(shadow_map, vec4(at.x + 1.1 * step, at.y - 0.4 * step, layer, at.z));

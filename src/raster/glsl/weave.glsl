@@ -6,7 +6,7 @@
  * both systems from afar take over. Points and systems are bases (weave_base.h), each lit by itself. The rest is
  * computed a single time: the layers above the bases, except under polygon lights, and the residual of the environment
  * on the mean base. That is linear in the colours of a base, and each base has them times what its system reflects of an
- * even sky, so that an even sky is exact. */
+ * even sky, so that an even sky is that of the fit (cloth_sky.h). */
 #include "raster/glsl/weave_far.glsl"
 #ifdef AMBIENT
 #include "raster/glsl/weave_sky.glsl"

@@ -1,9 +1,8 @@
 /* weave_sky.glsl - what the systems of a cloth reflect of an even sky (raster/material/cloth_sky.h) */
-const int CLOTH_SKY_TERMS = 8;
 
 /* Returns the amplitudes of a wave. */
 vec4 weave_sky_wave(int wave, float t) {
-    int first = CLOTH_SKY + wave * CLOTH_SKY_TERMS;
+    int first = CLOTH_SKY_FIRST + wave * CLOTH_SKY_TERMS;
     vec4 sum = material_fits[first + CLOTH_SKY_TERMS - 1];
     for (int k = CLOTH_SKY_TERMS - 2; k >= 0; k--) sum = sum * t + material_fits[first + k];
     return sum;

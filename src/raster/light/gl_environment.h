@@ -58,8 +58,8 @@ int environment_lights(const GlEnvironment *environment, float rotation, EnvLigh
 int environment_points(const GlEnvironment *environment, float rotation, EnvPoint env_points[AMBIENT_POINTS_MAX]);
 
 /* Declares the functions that shading/ambient/ambient.h needs from its source, which is then a Frame
- * (shading/stack/frame.h). Takes one sampler. The caller declares AmbientWeights ambient_baked(Frame, int) and float
- * ambient_light_visibility(Frame, int, float). */
+ * (shading/stack/frame.h). Takes one sampler. The caller declares AmbientWeights ambient_baked(Frame, int), float
+ * ambient_light_visibility(Frame, int, float) and float ambient_light_behind(Frame, int, float). */
 void environment_text(Text *text);
 
 /* Sets the texture unit of the cube and the binding of the block in a program, if it has them. */

@@ -41,6 +41,8 @@ static void merge_two(LightCluster *groups, int count) {
     groups[second] = groups[count - 1];
 }
 
+_Static_assert((int)AMBIENT_LIGHTS <= (int)MERGED_OF, "each light of a picture is known to its group");
+
 int merged_lights(const AmbientParts *parts, MergedLight out[MERGED_LIGHTS]) {
     LightCluster groups[AMBIENT_LIGHTS_MAX];
     int count = parts->env_light_count;

@@ -1,7 +1,8 @@
 /* merged_lights.h - the lights of an environment for a moving picture, which are fewer
  *
- * Two lights are merged, again and again, until MERGED_LIGHTS are left: those whose light spreads least together, by Joe H. Ward,
- * "Hierarchical Grouping to Optimize an Objective Function", Journal of the American Statistical Association 58(301), 1963.
+ * Two lights are merged, again and again, until MERGED_LIGHTS are left: those whose light spreads least together, by
+ * Joe H. Ward, "Hierarchical Grouping to Optimize an Objective Function", Journal of the American Statistical
+ * Association 58(301), 1963.
  * The light of both comes from their mean direction, and none is lost. */
 #pragma once
 

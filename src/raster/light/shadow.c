@@ -53,13 +53,15 @@ static Box find_casters(const WeftScene *scene, const LightPolygon *polygon) {
     }
 }
 
-/* Returns depths that hold in all directions. least: the first of them, over the last. */
-static Depths depths_around(const WeftScene *scene, Vec3 eye, float least) {
-    const Box box = {scene->low, scene->high};
-    float far = 0.0f;
-    for (int k = 0; k < 8; k++) far = fmaxf(far, vec3_length(vec3_sub(box_corner(box, k), eye)));
-    far = 1.01f * (far + scene_hair_reach(scene)) + 1e-6f;
-    return (Depths){.near = least * far, .far = far};
+/* Returns depths that hold in all directions. least: the first of them, over that of the farthest caster. */
+static Depths depths_around(const WeftScene *scene, Vec3 eye, Box casters, float least) {
+    const Box boxes[2] = {casters, {scene->low, scene->high}};
+    const float hair = scene_hair_reach(scene);
+    float far[2] = {0.0f, 0.0f};
+    for (int k = 0; k < 16; k++)
+        far[k / 8] = fmaxf(far[k / 8], vec3_length(vec3_sub(box_corner(boxes[k / 8], k % 8), eye)));
+    return (Depths){.near = least * (1.01f * (far[0] + hair) + 1e-6f),
+                    .far = 1.01f * (fmaxf(far[0], far[1]) + hair) + 1e-6f};
 }
 
 /* Returns the depths of the scene and its lights from all points of a light, which look along one axis. With
@@ -67,7 +69,7 @@ static Depths depths_around(const WeftScene *scene, Vec3 eye, float least) {
  * least, however far a stage reaches. */
 static Depths depths_of(const WeftScene *scene, const Shadow *shadow, Box casters) {
     const float least = 1e-2f;
-    if (shadow->faces) return depths_around(scene, shadow->view.eye, least);
+    if (shadow->faces) return depths_around(scene, shadow->view.eye, casters, least);
     Depths all = depths_none(), here = depths_none();
     float back = 0.0f, front = 0.0f;
     depths_add_scene(&all, &shadow->view, scene);

@@ -7,6 +7,7 @@
 #include "base/matrix.h"
 #include "base/memory.h"
 #include "base/thread.h"
+#include "shading/dialect/points.h"
 #include "shading/weave/weave_light.h"
 
 enum {
@@ -32,14 +33,6 @@ static const ClothFacet *facet_of(const WeftCloth *cloth, int t, int k, int n) {
     return &cloth->facets[t][(int)(((double)k + 0.5) * cloth->facet_count[t] / n)];
 }
 
-/* Returns k with its binary digits mirrored at the binary point (van der Corput). */
-static float mirrored(uint32_t k) {
-    float x = 0.0f;
-    for (float place = 0.5f; k; k >>= 1, place *= 0.5f)
-        if (k & 1) x += place;
-    return x;
-}
-
 /* Adds what a system reflects towards o, and towards o turned by half: of light that met one fibre, and of all other. */
 static void reflect(const WeftCloth *cloth, int t, Dir o, double e[2]) {
     for (int k = 0; k < SAMPLES; k++) {
@@ -49,7 +42,8 @@ static void reflect(const WeftCloth *cloth, int t, Dir o, double e[2]) {
         YarnView w;
         yarn_prepare(facet_yarn(cloth, t, facet), &p);
         yarn_view(&p, from, &w);
-        const Dir i = yarn_sample(&p, &w, from, mirrored((uint32_t)k), (float)fmod(0.6180339887498949 * k, 1.0));
+        const Dir i =
+            yarn_sample(&p, &w, from, point_fraction(reverse_bits((uint)k)), (float)fmod(0.6180339887498949 * k, 1.0));
         if (!(i.z > 0.0f)) continue;
         const LobeValue v = yarn_value(&p, &w, angles_between(from, i));
         if (!(v.pdf > 0.0f)) continue;
@@ -90,8 +84,8 @@ static void find_node(void *user, int node, int thread) {
     }
 }
 
-/* Sets the polynomials, by least squares over the nodes. */
-static void fit_polynomials(const SkyWaves *self, AmbientWeights out[CLOTH_SKY]) {
+/* Sets the polynomials, by least squares over the nodes. Returns false if memory is short. */
+static bool fit_polynomials(const SkyWaves *self, AmbientWeights out[CLOTH_SKY]) {
     double a[CLOTH_SKY_TERMS][CLOTH_SKY_TERMS] = {{0.0}}, b[CLOTH_SKY_WAVES * KINDS][CLOTH_SKY_TERMS] = {{0.0}};
     for (int node = 0; node < NODES; node++) {
         double power[CLOTH_SKY_TERMS] = {1.0};
@@ -103,11 +97,12 @@ static void fit_polynomials(const SkyWaves *self, AmbientWeights out[CLOTH_SKY])
     }
     if (!matrix_factor(CLOTH_SKY_TERMS, a[0], CLOTH_SKY_TERMS) ||
         !matrix_solve(CLOTH_SKY_TERMS, a[0], CLOTH_SKY_TERMS, CLOTH_SKY_WAVES * KINDS, b[0], CLOTH_SKY_TERMS))
-        memset(b, 0, sizeof b); /* memory is short */
+        return false;
     for (int w = 0; w < CLOTH_SKY_WAVES; w++)
         for (int j = 0; j < CLOTH_SKY_TERMS; j++)
             out[w * CLOTH_SKY_TERMS + j] = (AmbientWeights){(float)b[KINDS * w][j], (float)b[KINDS * w + 1][j],
                                                             (float)b[KINDS * w + 2][j], (float)b[KINDS * w + 3][j]};
+    return true;
 }
 
 /* Returns the mean of a colour of the whole repeat. layer: FAR_... */
@@ -149,13 +144,13 @@ static void fit_division(const WeftCloth *cloth, int threads, AmbientPart *parts
 bool cloth_sky_fit(const WeftCloth *cloth, int threads, AmbientFit *fit, AmbientWeights albedo[CLOTH_SKY]) {
     SkyWaves *waves = alloc_array(1, sizeof *waves);
     AmbientPart *parts = alloc_array(2 * MIXED, sizeof *parts);
-    const bool made = waves && parts;
+    bool made = waves && parts;
     if (made) {
         waves->cloth = cloth;
         parallel_for(threads, NODES, find_node, waves);
-        fit_polynomials(waves, albedo);
-        fit_division(cloth, threads, parts, fit);
+        made = fit_polynomials(waves, albedo);
     }
+    if (made) fit_division(cloth, threads, parts, fit);
     free(waves);
     free(parts);
     return made;

@@ -5,6 +5,7 @@
 
 #include "base/equal.h"
 #include "raster/light/gl_environment.h"
+#include "raster/material/cloth_sky.h"
 #include "raster/material/cloths.h"
 #include "raster/material/part.h"
 
@@ -451,7 +452,8 @@ static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots
     text_line(text, "\nAmbientTables material_ambient() {\n    AmbientTables t;");
     for (int k = 0; k < SLOT_COUNT; k++) put_ambient_table(text, slot_name(k), &entries[k]);
     text_line(text, "    return t;\n}");
-    if (key->woven) text_line(text, "\nconst int CLOTH_SKY = %d;", SHADER_CLOTH_SKY);
+    if (key->woven)
+        text_line(text, "\nconst int CLOTH_SKY_FIRST = %d, CLOTH_SKY_TERMS = %d;", SHADER_CLOTH_SKY, CLOTH_SKY_TERMS);
     text_define(text, "AMBIENT", "1");
 }
 

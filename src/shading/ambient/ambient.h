@@ -132,7 +132,7 @@ FN Rgb ambient_behind(AmbientSource s, float open) {
     int count = ambient_light_count(s);
     for (int k = 0; k < count; k++) {
         AmbientLight l = ambient_light(s, k);
-        float seen = l.w.z < 0.0f ? ambient_light_visibility(s, k, open) : 0.0f;
+        float seen = l.w.z < 0.0f ? ambient_light_behind(s, k, open) : 0.0f;
         sum = rgb_add(sum, rgb_scale(l.color, seen * max(-l.w.z, 0.0f) * (1.0f / PI)));
     }
     return sum;

@@ -6,6 +6,8 @@
  *   ambient_light_count(s)         number of these lights
  *   ambient_light_visibility(s, k, occlusion)
  *                                  visible part of light k, 0 to 1; in C it is `occlusion`, the visible part of the sky
+ *   ambient_light_behind(s, k, open)
+ *                                  the same of a light behind the surface; `open` is the visible part of the sky there
  *   ambient_nearest_light(s, w)    number of the light nearest to w; -1 if there is none
  *   ambient_point(s, k)            point k of those that the lights are divided into, for lobes so narrow that they
  *                                  show the shape of a light
@@ -65,6 +67,7 @@ FN float ambient_light_kappa(AmbientSource s) { return s->env_light_kappa; }
 FN AmbientWeights ambient_baked(AmbientSource s, int k) { return s->baked[k]; }
 FN AmbientLight ambient_light(AmbientSource s, int k) { return s->light(s->user, k); }
 FN float ambient_light_visibility(AmbientSource s, int k, float occlusion) { return occlusion; }
+FN float ambient_light_behind(AmbientSource s, int k, float open) { return open; }
 FN AmbientLight ambient_point(AmbientSource s, int k) { return s->point(s->user, k); }
 FN int ambient_point_count(AmbientSource s) { return s->point_count; }
 FN int ambient_nearest_light(AmbientSource s, Dir w) {
