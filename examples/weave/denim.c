@@ -102,10 +102,12 @@ static int picture_make(WeftImage *image, int points) {
 
 int main(int count, char **arguments) {
     WeftImage linear = {0}, shown = {0};
-    WeftError error = {.result = WEFT_USAGE, .text = "denim OUT.png [POINTS]"};
-    if (count > 1 && weft_image_create(WIDTH, HEIGHT, 3, WEFT_PIXEL_F32, &linear, &error) == WEFT_OK) {
+    WeftError error = {.result = WEFT_USAGE, .text = "denim OUT.png [POINTS, 1 to 256]"};
+    const int points = count > 2 ? atoi(arguments[2]) : 1;
+    if (count > 1 && points >= 1 && points <= 256 &&
+        weft_image_create(WIDTH, HEIGHT, 3, WEFT_PIXEL_F32, &linear, &error) == WEFT_OK) {
         error = (WeftError){.result = WEFT_RESOURCES, .text = "OpenGL gave up"};
-        if (picture_make(&linear, count > 2 ? atoi(arguments[2]) : 1) &&
+        if (picture_make(&linear, points) &&
             weft_image_tonemap(&linear, WEFT_TONEMAP_PBR_NEUTRAL, 0.7f, &shown, &error) == WEFT_OK &&
             weft_image_write(arguments[1], &shown, &error) == WEFT_OK)
             error.result = WEFT_OK;

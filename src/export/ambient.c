@@ -45,11 +45,7 @@ static const char *refusal(const WeftLobe *lobe, const AmbientFit *fit) {
 
 /* Writes the function that interpolates a plane of the table over cos_o and the lobe's first parameter. */
 static void put_entry(Text *text, const char *prefix, const AmbientFit *fit, int layer) {
-    char root_low[32], rows[32], top[32];
-    snprintf(root_low, sizeof root_low, "%s", number(fit->root_low).text);
-    snprintf(rows, sizeof rows, "%s",
-             number((float)(fit->rows - 1) / fmaxf(fit->root_high - fit->root_low, 1e-6f)).text);
-    snprintf(top, sizeof top, "%s", number((float)(fit->rows - 2)).text);
+    const float per_root = (float)(fit->rows - 1) / fmaxf(fit->root_high - fit->root_low, 1e-6f);
     text_line(text,
               "\n/* A plane of the table: 0, 1, 2 are shares of look-ups 1 and 2, of 3, of 4 and 5; 3 and 4 are\n"
               " * the sine of the lobe's mean direction, towards wo, and log2 of its kappa. */\n"
@@ -69,7 +65,7 @@ static void put_entry(Text *text, const char *prefix, const AmbientFit *fit, int
     text_line(text,
               "    float height = (sqrt(max(p, 0.0)) - %s) * %s, above = clamp(floor(height), 0.0, %s);\n"
               "    int row = plane * %d + int(above);",
-              root_low, rows, top, fit->rows);
+              number(fit->root_low).text, number(per_root).text, number((float)(fit->rows - 2)).text, fit->rows);
     for (int k = 0; k < 2; k++)
         text_line(text,
                   "    float %s = mix(table_fetch(t.texels, %d, row%s, column), table_fetch(t.texels, %d, row%s, "
@@ -88,10 +84,8 @@ static void put_axis(Text *text, const LobeNames *own, const char *p, bool focus
         LOOKS - 1, own->prefix, own->record);
     for (int k = 1; k < FOCUS; k++) {
         const Dir a = looks[k].axis;
-        char x[32], y[32];
-        snprintf(x, sizeof x, "%s", number(a.x).text);
-        snprintf(y, sizeof y, "%s", number(a.y).text);
-        text_line(text, "    if (k == %d) a = dir(%s, %s, %s);", k, x, y, number(a.z).text);
+        text_line(text, "    if (k == %d) a = dir(%s, %s, %s);", k, number(a.x).text, number(a.y).text,
+                  number(a.z).text);
     }
     if (focus)
         text_line(text,

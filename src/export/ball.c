@@ -1,7 +1,7 @@
 /* ball.c - the picture of a Shadertoy: a lit ball for one model, or two halves for two lobes
  *
  * The picture is our own work. The mouse moves one light; a second, faint one behind the ball shows the rim. Both are
- * distant. Tone: sRGB of the radiance, clamped. The mouse takes a cloth nearer or further away instead. */
+ * distant. Tone: sRGB of the radiance, clamped. Of a cloth the mouse, up and down, sets how far away it is. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -64,7 +64,7 @@ static void put_lobe(const Draft *draft, const WeftLobe *lobe, const char *id, c
  * them between its middle and its rim to 400. */
 static void put_seen(const Draft *draft, Buffer *out) {
     char record[SPELL_NAME], see[SPELL_NAME];
-    put_line(out, "    float per = 8.0 * pow(50.0, roughness) / %s;",
+    put_line(out, "    float per = 8.0 * pow(50.0, (roughness - 0.15) / 0.85) / %s;",
              number(cloth_placing(draft->desc->cloth).warps).text);
     put_line(out, "    %s seen = %s(s, spot.x * per, -spot.y * per, spot.z * per, 0.0, 0.0, spot.z * per, 1);",
              spell_name(&draft->speller, ITEM_RECORD, "WeaveSeen", record),

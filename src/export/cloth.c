@@ -22,7 +22,6 @@ static float *colors_make(const ClothFar *far) {
     const size_t stride = 4 * (size_t)far->width, rows = (size_t)rows_of(far);
     float *table = alloc_array(rows * stride, sizeof *table), *to = table;
     if (!table) return NULL;
-    memset(table, 0, rows * stride * sizeof *table);
     for (int level = 0; level < far->levels; level++) {
         int width, height;
         const float *from = cloth_far_level(far, level, &width, &height);

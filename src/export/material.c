@@ -220,13 +220,14 @@ static void put_stack(Draft *draft, const ExportModel *model) {
               c ? "    static StackView nothing;\n" : "", c ? " = nothing" : "");
     if (needs_e(model)) text_line(text, "    w.e_o = stack_albedo(m, wo);");
     if (model->slots.slots[PLACE_SHEEN].count) text_line(text, "    view_base_scale(m, w);");
-    if (model->slots.transmits)
+    if (model->slots.transmits) {
+        const bool holed = model->woven && model->material.alpha_mode != WEFT_ALPHA_OPAQUE;
         text_line(text,
                   "    if (wi.z < 0.0) {\n"
                   "        Angles mirrored = angles_between(wo, dir(wi.x, wi.y, -wi.z));\n"
-                  "        return %s;\n    }",
-                  draft->desc->fold_pi ? "rgb_scale(stack_transmitted(m, w, mirrored).f_cos, PI)"
-                                       : "stack_transmitted(m, w, mirrored).f_cos");
+                  "        return rgb_scale(stack_transmitted(m, w, mirrored).f_cos, %s%s);\n    }",
+                  draft->desc->fold_pi ? "PI" : "1.0", holed ? " * seen.covers" : "");
+    }
 }
 
 /* Writes the end of the function for a cloth. The layers above are linear in f of the base: pi times their f of a white

@@ -70,7 +70,7 @@ static void put_material(const Draft *draft, const char *precision, Buffer *out)
         if (takes(draft, k)) put_line(out, "    s.%s = %s;", input_infos[k].name, parameter(k, bare));
     if (draft->desc->cloth) {
         spell_item(&draft->speller, &draft->items, ITEM_RECORD, "WeaveSeen", record);
-        put_line(out, "    %s seen = %s(s, Uv.x, Uv.y, UvDdx.x, UvDdx.y, UvDdy.x, UvDdy.y, 1);", record,
+        put_line(out, "    %s seen = %s(s, Uv.x, -Uv.y, UvDdx.x, -UvDdx.y, UvDdy.x, -UvDdy.y, 1); // v runs up", record,
                  function(draft, "see", name));
     }
     put_line(out, "    Out = %s(s, %sWo, Wi);\n}", function(draft, "shade", name), draft->desc->cloth ? "seen, " : "");

@@ -479,7 +479,7 @@ static inline void woven_answer(const WovenAsked *asked, bool holed, const float
     if (asked->i.z > 0.0f)
         sum = rgb_add(sum, rgb_scale(above, holed ? covers : 1.0f));
     else
-        sum = woven_f(asked, near, &p.fibre, NULL, true);
+        sum = rgb_scale(woven_f(asked, near, &p.fibre, NULL, true), holed ? covers : 1.0f);
     out[0] = sum.r, out[1] = sum.g, out[2] = sum.b, out[3] = covers;
     *afar = far;
 }
