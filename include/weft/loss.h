@@ -19,7 +19,7 @@ typedef struct WeftLoss {
 /* A list of losses, each once. Zero-initialise; release with weft_losses_free. */
 typedef struct WeftLosses {
     WeftLoss *items; /* count of them; owned */
-    int count;
+    int count;       /* the number of items */
 } WeftLosses;
 
 /* Adds a loss to a list unless an equal one is in it. name and why may be NULL: empty. Returns 0 where memory is short. */

@@ -145,9 +145,10 @@ typedef struct WeftBaking {
 /* The distance of the maps from the cloth, as seen from afar: the mean over five directions of light and an even sky of
  * the difference over the light of the cloth. */
 typedef struct WeftBaked {
-    double copied;   /* of maps that copy the threads' own numbers */
-    double fitted;   /* of the maps that are written */
-    double sky;      /* what an even sky gives too much, over what it gives the cloth */
+    double copied; /* of maps that copy the threads' own numbers */
+    double fitted; /* of the maps that are written */
+    double sky;    /* what an even sky gives too much, over what it gives the cloth; of a viewer whose own sky is in the
+                        fit (three, babylon, filament-sheen) with occlusion, of others without */
     double contrast; /* of squares of 4 by 4 texels with each other, over that of the threads */
     double levels;   /* the mean of the distance of mip levels of their own after the first; 0: there are none */
 } WeftBaked;
@@ -163,8 +164,9 @@ typedef struct WeftBaked {
  * holes. The rotation of the weave is left out. With `levels` sides are multiples of 4, the first four files of the
  * front end in .ktx2 (UASTC in Zstandard, as KHR_texture_basisu takes it), and each mip level is fitted like the
  * whole: its texels shade as the cloth does from afar, in the mean, with the contrast of the threads at that size.
- * found, of the front, may be NULL. What is stopped has written nothing. The same arguments give the same files. Fails with WEFT_MESSAGE_DESC (no cloth, a
- * number out of range, a profile that is not one or does not read metallic), _PARAM_VALUE, _FILE_WRITE or _MEMORY. */
+ * found, of the front, may be NULL. What is stopped has written nothing. The same arguments give the same files. Fails
+ * with WEFT_MESSAGE_DESC (no cloth, a number out of range, a profile that is not one or does not read metallic),
+ * _PARAM_VALUE, _FILE_WRITE or _MEMORY. */
 WEFT_API WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *cloth, const WeftBaking *baking,
                                        const char *folder, WeftBaked *found, WeftError *error);
 

@@ -185,7 +185,8 @@ static int maps_write(Weaving *weaving) {
     baking.user = &progress;
     WeftResult result = weft_material_bake(&weaving->material, weaving->cloth, &baking, folder, &weaving->fit, &error);
     progress_finish(&progress);
-    if (result == WEFT_INTERRUPTED) return report(WEFT_INTERRUPTED, "%.300s: interrupted; nothing was written", folder);
+    if (result == WEFT_INTERRUPTED)
+        return report(WEFT_INTERRUPTED, "%.300s: interrupted; no maps were written", folder);
     if (result == WEFT_OK) result = weft_scene_load("builtin:cloth", &scene, &log, &error);
     if (result == WEFT_OK) result = weft_scene_assign_material(scene, NULL, material, &log, &error);
     if (result == WEFT_OK) result = weft_scene_save(scene, glb, &error);

@@ -10,9 +10,16 @@
 enum { WHOLE = 1000000 };
 static const double pause = 0.05;
 
+void progress_part(ItemProgress *item_progress, double low, double high) {
+    if (!item_progress) return;
+    item_progress->low = low;
+    item_progress->high = high;
+}
+
 bool progress_report(ItemProgress *item_progress, double fraction) {
     if (!item_progress || !item_progress->watch) return true;
-    long long now = (long long)(fmin(fmax(fraction, 0.0), 1.0) * WHOLE);
+    const double within = fmin(fmax(fraction, 0.0), 1.0), high = item_progress->high > 0.0 ? item_progress->high : 1.0;
+    const long long now = (long long)((item_progress->low + (high - item_progress->low) * within) * WHOLE);
     if (now > item_progress->reported) {
         atomic_fetch_add(&item_progress->watch->done, now - item_progress->reported);
         item_progress->reported = now;

@@ -15,9 +15,13 @@ typedef struct LoopWatch {
 typedef struct ItemProgress {
     LoopWatch *watch; /* may be NULL */
     long long reported;
+    double low, high; /* the part of the item whose fractions are reported; high 0: the whole */
 } ItemProgress;
 
-/* Records that this fraction of the item is done, if that is more than was reported before. Returns false if
+/* Goes on to the part `low` to `high` of the item. item_progress may be NULL. */
+void progress_part(ItemProgress *item_progress, double low, double high);
+
+/* Records that this fraction of the item's part is done, if that is more than was reported before. Returns false if
  * the item should end. item_progress may be NULL. */
 bool progress_report(ItemProgress *item_progress, double fraction);
 

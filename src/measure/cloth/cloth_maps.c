@@ -226,7 +226,7 @@ static void sides_of(int pixels, const double size[2], int step, int sides[2]) {
 static int cycle_of(int count) { return count * ((CYCLE_LEAST + count - 1) / count); }
 
 /* Removes a folder that was made for maps of which not all could be written. */
-static void folder_remove(const char *folder) {
+static void maps_remove(const char *folder) {
     for (int k = 0; k < 4 * MAP_COUNT; k++) {
         const MapBake b = {.name = k / MAP_COUNT % 2 ? back_name : "", .leveled = k / MAP_COUNT / 2 != 0};
         char path[PATH_SIZE];
@@ -279,13 +279,23 @@ static bool is_holed(const WeftMaterial *material, const WeftCloth *cloth) {
     return gaps && material->alpha_mode != WEFT_ALPHA_OPAQUE;
 }
 
+static const double LEVEL_SEARCHES = 2.0;
+
 /* The viewer that maps are made for. */
 typedef struct MapViewer {
     int profile, pixels;
     double metres;
     bool leveled;
-    ItemProgress item_progress; /* of the searches */
+    ItemProgress item_progress; /* of the searches: those of a face's levels take twice as long as that of its look */
+    double searched, searches;  /* how many, counted so, are over, of how many */
 } MapViewer;
+
+/* Goes on to the next searches, which count as so many. */
+static void search_begin(MapViewer *viewer, double searches) {
+    const double low = viewer->searched / viewer->searches;
+    viewer->searched += searches;
+    progress_part(&viewer->item_progress, low, viewer->searched / viewer->searches);
+}
 
 /* Finds the look of a face, and its levels. */
 static WeftResult look_face(MapBake *b, const WeftMaterial *material, const WeftCloth *cloth, MapViewer *viewer,
@@ -293,9 +303,11 @@ static WeftResult look_face(MapBake *b, const WeftMaterial *material, const Weft
     WeftResult result = map_fit_create(&b->grid, material, cloth, viewer->profile, b->holed, &b->fit, error);
     if (result != WEFT_OK || !b->fit) return result;
     b->fit->item_progress = &viewer->item_progress;
+    search_begin(viewer, 1.0);
     map_look_find(b->fit, &b->look, found);
     if (!progress_report(&viewer->item_progress, 1.0)) return WEFT_INTERRUPTED;
     if (!b->leveled) return WEFT_OK;
+    search_begin(viewer, LEVEL_SEARCHES);
     result = map_levels_find(b->fit, &b->look, &b->levels, error);
     for (int k = 1; k < b->levels.count; k++) found->levels += b->levels.items[k].error / (b->levels.count - 1);
     return result;
@@ -325,6 +337,7 @@ static WeftResult bake_faces(const WeftMaterial *material, const WeftCloth *cons
     WeftBaked baked[2] = {{.levels = 0.0}, {.levels = 0.0}};
     WeftResult result = WEFT_OK;
     const int count = cloths[1] ? 2 : 1;
+    viewer->searches = count + (viewer->leveled ? LEVEL_SEARCHES : 0.0);
     sides_of(viewer->pixels, size, viewer->leveled ? BLOCK : 1, sides);
     snprintf(place, sizeof place, "\"scale\": [%.9g, %.9g]", viewer->metres / size[0], viewer->metres / size[1]);
     for (int k = 0; k < count && result == WEFT_OK; k++) {
@@ -393,7 +406,7 @@ WeftResult weft_material_bake(const WeftMaterial *material, const WeftCloth *clo
     const WeftResult result =
         other || baking->one_face ? bake_watched(&bake, baking, error) : fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
     weft_cloth_free(other);
-    if (result != WEFT_OK && made == 1) folder_remove(folder);
+    if (result != WEFT_OK && made == 1) maps_remove(folder);
     return result;
 }
 

@@ -34,8 +34,8 @@ typedef struct LookTexel {
     float color[3], normal[3], along[2], light, roughness, stretch, cover; /* color: with a shade of 0 */
 } LookTexel;
 
-/* Parts of f cos_i of which light is a sum: of a black base without sheen; what a white base adds, by channel in the
- * colour of the texel; what a white sheen adds. */
+/* Parts of f cos_i of which light is a sum: of a black base without sheen; what a base adds for
+ * each unit of its colour, by channel in the colour of the texel; what a white sheen adds. */
 enum { PART_REST, PART_BASE, PART_SHEEN = PART_BASE + 3, PARTS };
 
 typedef struct LookBlock {

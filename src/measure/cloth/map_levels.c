@@ -222,10 +222,18 @@ static void first_set(MapLevel *first, const MapLook *look) {
     for (int c = 0; c < 3; c++) first->color[c] = look->color[c];
 }
 
+/* Goes on to one of so many levels, which share a part of the search evenly. Returns false if the search should end. */
+static bool level_begin(ItemProgress *item_progress, const ItemProgress *part, int level, int count) {
+    const double step = (part->high - part->low) / count;
+    progress_part(item_progress, part->low + step * level, part->low + step * (level + 1));
+    return progress_report(item_progress, 0.0);
+}
+
 WeftResult map_levels_find(MapFit *fit, const MapLook *look, MapLevels *out, WeftError *error) {
     enum { FEW = 4, MANY = 8 }; /* points along a side of a place */
     LevelFit self = {.fit = fit};
     MapPlace places[BLOCKS];
+    const ItemProgress part = fit->item_progress ? *fit->item_progress : (ItemProgress){.watch = NULL};
     *out = (MapLevels){.holed = fit->holed, .normal = look->normal};
     if (!texels_make(fit->grid, look, out)) return fail(error, WEFT_MESSAGE_MEMORY, "maps", NULL);
     first_set(&out->items[0], look);
@@ -235,7 +243,7 @@ WeftResult map_levels_find(MapFit *fit, const MapLook *look, MapLevels *out, Wef
     fit->open = covered.normal[3] / covered.cover;
     look_hold(&self, look);
     for (int k = 1; k < out->count; k++) {
-        if (!progress_report(fit->item_progress, 1.0)) return WEFT_INTERRUPTED;
+        if (!level_begin(fit->item_progress, &part, k - 1, out->count - 1)) return WEFT_INTERRUPTED;
         MapLevel *level = &out->items[k];
         blocks_choose(fit, out, level, places);
         blocks_center(fit, &whole);
@@ -243,7 +251,7 @@ WeftResult map_levels_find(MapFit *fit, const MapLook *look, MapLevels *out, Wef
         level_find(&self, level - 1, level);
         out->normal = fmaxf(out->normal, level->relief);
     }
-    return WEFT_OK;
+    return progress_report(fit->item_progress, 0.0) ? WEFT_OK : WEFT_INTERRUPTED;
 }
 
 void map_levels_free(MapLevels *levels) {

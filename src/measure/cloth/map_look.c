@@ -100,6 +100,7 @@ static double copied_error(MapFit *fit, const double *x) {
     fit->count = BLOCKS;
     (void)map_fit_error(fit, x, &sky);
     for (int c = 0; c < 3; c++) fit->gains[c] = fit->tints[c] = 1.0;
+    fit->dim = 1.0; /* a copy has no occlusion that was fitted */
     return map_fit_error_now(fit, &sky);
 }
 

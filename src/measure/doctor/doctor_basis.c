@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/little_endian.h"
+#include "image/ktx2/ktx2.h"
 #include "measure/doctor/doctor.h"
 
 /* Places of numbers in a file, in bytes. */
@@ -25,14 +26,7 @@ enum {
 
 /* Numbers of the descriptor, behind its size: colour model, primaries, transfer function, flags. */
 enum { MODEL = 12, TRANSFER = 14, FLAGS = 15, BLOCK = 16 };
-enum {
-    MODEL_ETC1S = 163,
-    MODEL_UASTC = 166,
-    TRANSFER_LINEAR = 1,
-    TRANSFER_SRGB = 2,
-    PREMULTIPLIED = 1,
-    SCHEME_ZSTANDARD = 2
-};
+enum { MODEL_ETC1S = 163, MODEL_UASTC = 166, TRANSFER_LINEAR = 1, TRANSFER_SRGB = 2, PREMULTIPLIED = 1 };
 
 static size_t number_at(Span file, size_t at) { return (size_t)little_endian(file.data + at, 4); }
 
@@ -62,7 +56,7 @@ static bool basis_fault(Span file, const char *color, const char *data, char wor
     words[0] = 0;
     if (model != MODEL_ETC1S && model != MODEL_UASTC)
         snprintf(words, 192, "its texels are neither ETC1S nor UASTC");
-    else if (number_at(file, SCHEME) > SCHEME_ZSTANDARD)
+    else if (number_at(file, SCHEME) > KTX2_ZSTANDARD)
         snprintf(words, 192, "it is packed neither by BasisLZ nor by Zstandard");
     else if (width % 4 || height % 4)
         snprintf(words, 192, "its sides, %zu x %zu, are no multiples of 4", width, height);

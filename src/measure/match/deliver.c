@@ -8,6 +8,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/printable.h"
 #include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf.h"
 #include "measure/match/average.h"
@@ -96,8 +97,7 @@ static WeftResult source_read(Delivering *self, const WeftLog *log, WeftError *e
     if (!self->parcels || !self->delivered || !self->errors || !self->results)
         return fail(error, WEFT_MESSAGE_MEMORY, self->path, NULL);
     for (int k = 0; k < self->count; k++)
-        snprintf(self->delivered[k].name, sizeof self->delivered->name, "%s",
-                 weft_scene_material_name(self->source, k));
+        printable(weft_scene_material_name(self->source, k), self->delivered[k].name, sizeof self->delivered->name);
     return averages_read(self, self->source, false, error);
 }
 
