@@ -12,19 +12,11 @@ static bool is_same(const WeftLoss *a, const WeftLoss *b) {
            strcmp(a->why, b->why) == 0;
 }
 
-/* Copies a text that may be NULL, as far as there is room, without what a terminal obeys. */
-static void text_take(char *to, size_t size, const char *text) {
-    const size_t length = text ? strnlen(text, size - 1) : 0;
-    if (length) memcpy(to, text, length);
-    to[length] = '\0';
-    make_printable(to);
-}
-
 int weft_losses_add(WeftLosses *losses, int material, const char *name, const char *what, const char *why) {
     WeftLoss loss = {.material = material};
-    text_take(loss.name, sizeof loss.name, name);
-    text_take(loss.what, sizeof loss.what, what);
-    text_take(loss.why, sizeof loss.why, why);
+    printable(name, loss.name, sizeof loss.name);
+    printable(what, loss.what, sizeof loss.what);
+    printable(why, loss.why, sizeof loss.why);
     for (int k = 0; k < losses->count; k++)
         if (is_same(&losses->items[k], &loss)) return 1;
     WeftLoss *more = realloc_array(losses->items, (size_t)losses->count + 1, sizeof *more);
@@ -49,7 +41,7 @@ int weft_losses_hear(WeftLosses *losses, int material, const char *name, const c
     char what[sizeof losses->items->what];
     const char *detail = detail_of(subject, message, text), *end = strstr(detail, ": ");
     const size_t length = end ? (size_t)(end - detail) : strlen(detail);
-    snprintf(what, sizeof what, "%.*s", (int)length, detail);
+    printable(detail, what, length < sizeof what ? length + 1 : sizeof what);
     return weft_losses_add(losses, material, name, what, end ? end + 2 : NULL);
 }
 

@@ -24,6 +24,11 @@ static inline const char *path_builtin(const char *path) {
 /* Returns true for a file that is a material and may be named as a scene, which is the built-in cloth in it. */
 static inline bool path_is_cloth(const char *path) { return path_is_u3m(path) || path_ends(path, ".mtlx"); }
 
+/* Returns true for a file that is a draft by its name. */
+static inline bool path_is_draft(const char *path) {
+    return path_ends(path, ".wif") || path_ends(path, ".dtx") || path_ends(path, ".wpo");
+}
+
 /* Returns true if the path is shown on a scene that the program brings: builtin:NAME, or a material. */
 static inline bool path_is_on_builtin(const char *path) { return path_builtin(path) || path_is_cloth(path); }
 

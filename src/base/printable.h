@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdio.h>
+#include <string.h>
 
 /* Reads the character at s in well-formed UTF-8 (The Unicode Standard, version 15.0, table 3-7). Returns its length in
  * bytes, or 0 if there is none; s ends with a zero byte. */
@@ -59,9 +59,13 @@ static inline void make_printable(char *text) {
     *text = '\0';
 }
 
-/* Copies a text so, cut short where it does not fit. Returns out. */
+/* Copies whole characters of a text (NULL is "") so, as many as there is room for. Returns out. */
 static inline const char *printable(const char *text, char *out, size_t size) {
-    snprintf(out, size, "%s", text);
+    size_t length = text ? strnlen(text, size - 1) : 0;
+    if (text && text[length])
+        while (length && ((unsigned char)text[length] & 0xc0u) == 0x80u) length--; /* the cut is within a character */
+    if (length) memcpy(out, text, length);
+    out[length] = '\0';
     make_printable(out);
     return out;
 }

@@ -38,10 +38,15 @@ static VP8StatusCode still_decode(const ImageSource *source, WebPDecoderConfig *
 /* Decodes the first picture of an animation, on its canvas. */
 static VP8StatusCode first_decode(const ImageSource *source, WeftImage *image) {
     const WebPData data = {source->data, source->size};
+    WebPDemuxState state;
+    WebPDemuxDelete(WebPDemuxPartial(&data, &state));
+    if (state == WEBP_DEMUX_PARSING_HEADER || state == WEBP_DEMUX_PARSED_HEADER) return VP8_STATUS_NOT_ENOUGH_DATA;
+    if (state == WEBP_DEMUX_PARSE_ERROR) return VP8_STATUS_BITSTREAM_ERROR;
     WebPAnimDecoder *decoder = WebPAnimDecoderNew(&data, NULL);
+    if (!decoder) return VP8_STATUS_OUT_OF_MEMORY;
     uint8_t *canvas;
     int time;
-    const bool decoded = decoder && WebPAnimDecoderGetNext(decoder, &canvas, &time);
+    const bool decoded = WebPAnimDecoderGetNext(decoder, &canvas, &time);
     if (decoded) memcpy(image->pixels, canvas, pixel_bytes(image));
     WebPAnimDecoderDelete(decoder);
     return decoded ? VP8_STATUS_OK : VP8_STATUS_BITSTREAM_ERROR;

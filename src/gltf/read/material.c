@@ -42,6 +42,19 @@ static void picture_check(const Field *field, int texture) {
                *offer ? " but that of " : "", offer, *offer ? ", which is not read" : "");
 }
 
+/* Gives an input with a texture the set of the coordinates TEXCOORD_n; it has no texture where the material reads two
+ * others. */
+static void coordinates_give(const Field *field, Input *input, int n) {
+    const int set = coordinates_choose(field->asset, n);
+    if (set < 0) {
+        field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED,
+                   "TEXCOORD_%d, but the material reads TEXCOORD_%d and %d already", n, field->asset->sets[0],
+                   field->asset->sets[1]);
+        input->texture = 0;
+    }
+    input->texcoord = set < 0 ? 0 : set;
+}
+
 /* Reads a textureInfo, if there is one; channel matters to scalars only. */
 static void texture_read(const Field *field, Input *input, int channel) {
     static const char *const keys[] = {"index", "texCoord", "scale", "strength", "extensions", "extras", NULL};
@@ -53,15 +66,10 @@ static void texture_read(const Field *field, Input *input, int channel) {
     input->texcoord = (int)field_size(&texcoord, 0, 0, UINT8_MAX);
     if (transform.json) transform_read(&transform, input);
     field_keys(field, keys);
+    const int n = input->texcoord;
+    input->texcoord = 0;
     picture_check(field, input->texture);
-    const int set = coordinates_choose(field->asset, input->texcoord);
-    if (set < 0) {
-        field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED,
-                   "TEXCOORD_%d, but the material reads TEXCOORD_%d and %d already", input->texcoord,
-                   field->asset->sets[0], field->asset->sets[1]);
-        input->texture = 0;
-    }
-    input->texcoord = set < 0 ? 0 : set;
+    if (input->texture) coordinates_give(field, input, n);
 }
 
 /* Beyond these, numbers that glTF leaves unlimited are clamped: angles and the strength of a normal map. */
@@ -177,8 +185,8 @@ static void whole_input_read(const Field *field, InputId id, Input *input) {
     for (int c = 0; c < count; c++) input->value[c] = input_clamped(id, input->value[c]);
     field_floats(&transform, input->transform, 6, -most, most);
     input->texture = field_index(&texture, field->asset->texture_count) + 1;
-    const int set = coordinates_choose(field->asset, (int)field_size(&texcoord, 0, 0, 1));
-    input->texcoord = set < 0 ? 0 : set;
+    const int n = (int)field_size(&texcoord, 0, 0, 1);
+    if (input->texture) coordinates_give(field, input, n);
     input->channel = (uint8_t)field_size(&channel, 0, 0, 3);
     input->given = field_bool(&given, false);
 }

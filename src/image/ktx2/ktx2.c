@@ -91,7 +91,7 @@ static WeftResult blocks_find(Ktx2 *file, const unsigned char *basic, size_t siz
     if (model != MODEL_ETC1S && model != MODEL_UASTC)
         return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, file->source->name,
                     "KTX 2: blocks of colour model %d, neither ETC1S nor UASTC LDR; convert it to one of these", model);
-    if ((model == MODEL_ETC1S) != (file->scheme == 1))
+    if ((model == MODEL_ETC1S) != (file->scheme == KTX2_BASISLZ))
         return damaged(file->source, "ETC1S without BasisLZ, or BasisLZ without ETC1S", error);
     for (size_t k = 0; k < sizeof contents / sizeof *contents; k++) {
         if (contents[k].model != model || contents[k].first != first || contents[k].second != second) continue;
@@ -179,8 +179,8 @@ static WeftResult shape_read(Ktx2 *file, WeftError *error) {
     return WEFT_OK;
 }
 
-/* Refuses a picture that so few bytes cannot hold. Zstandard repeats a byte 131072 times in 4, Deflate 258 times in 2 bits; what BasisLZ packs best
- * is counted as 65536 texels a byte, so that a small file cannot ask for much. */
+/* Refuses a picture that so few bytes cannot hold. Zstandard repeats a byte 131072 times in 4, Deflate 258 times in 2 bits;
+ * what BasisLZ packs best is counted as 65536 texels a byte, so that a small file cannot ask for much. */
 static WeftResult size_check(const Ktx2 *file, WeftError *error) {
     static const int64_t bytes[] = {1, 2, 4, 4, 4, 4, 1, 1}, fewest[] = {1, 2, 2, 4, 4, 4, 1, 1};
     WeftResult result = image_check_header(file->source, file->width, file->height,
@@ -203,7 +203,7 @@ WeftResult ktx2_open(const ImageSource *source, Ktx2 *out, WeftError *error) {
         return damaged(source, "its header is cut", error);
     WeftResult result = shape_read(out, error);
     if (result == WEFT_OK) result = descriptor_read(out, error);
-    if (result == WEFT_OK && (out->scheme == 1) != (out->coding == KTX2_ETC1S))
+    if (result == WEFT_OK && (out->scheme == KTX2_BASISLZ) != (out->coding == KTX2_ETC1S))
         result = damaged(source, "BasisLZ without ETC1S", error);
     if (result == WEFT_OK) result = size_check(out, error);
     if (result == WEFT_OK) result = keys_read(out, error);

@@ -86,10 +86,10 @@ WeftResult ktx2_level_bytes(const Ktx2 *file, int level, size_t skip, size_t siz
     *out = (Ktx2Bytes){0};
     if (at > source->size || length > source->size - at)
         return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name, "KTX 2: level %d lies behind its end", level);
-    if ((file->scheme ? little_endian(entry + 16, 8) : length) < wanted)
+    if ((file->scheme != KTX2_NONE ? little_endian(entry + 16, 8) : length) < wanted)
         return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name, "KTX 2: level %d has less than its %llu bytes", level,
                     (unsigned long long)wanted);
-    if (file->scheme == 0) {
+    if (file->scheme == KTX2_NONE) {
         *out = (Ktx2Bytes){.data = source->data + at + skip, .size = size, .owned = NULL};
         return WEFT_OK;
     }

@@ -275,7 +275,9 @@ bool mtlx_is_glass(const Material *material) {
 }
 
 bool mtlx_absorbs(const Material *material) {
-    return material_is_solid(material) && material->inputs[INPUT_attenuation_distance].value[0] > 0.0f;
+    const Input *color = &material->inputs[INPUT_attenuation_color];
+    const bool clear = !color->texture && fminf(fminf(color->value[0], color->value[1]), color->value[2]) >= 1.0f;
+    return !clear && material_is_solid(material) && material->inputs[INPUT_attenuation_distance].value[0] > 0.0f;
 }
 
 /* Takes out glass that is not drawn, and turns the colours of other glass into the one of a node without a thickness. */
