@@ -1,5 +1,5 @@
 /* deliver_folder.c - the files of a delivery, which are made in a folder of their own and then given their places */
-#define _XOPEN_SOURCE 700 /* nftw, mkdtemp */
+#define _XOPEN_SOURCE 700 /* folder.h, mkdtemp */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -35,12 +35,9 @@ static int material_load(const char *what, WeftScene *scene, const WeftLog *log)
 
 /* Returns true for a file that is none of those that can be delivered, by its name and by what it holds. */
 static bool is_foreign(const char *what) {
-    static const char *const drafts[] = {".wif", ".dtx", ".wpo"};
     WeftDraft *draft = NULL;
     WeftError error;
-    for (size_t k = 0; k < sizeof drafts / sizeof *drafts; k++)
-        if (path_ends(what, drafts[k])) return false;
-    if (access(what, R_OK) != 0) return false;
+    if (path_is_draft(what) || access(what, R_OK) != 0) return false;
     const WeftResult result = weft_draft_read(what, &draft, NULL, &error);
     weft_draft_free(draft);
     return result != WEFT_OK && error.message == WEFT_MESSAGE_DRAFT;

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/path.h"
 #include "cli/console/names.h"
@@ -163,12 +164,9 @@ static int of_scene(Model *model, const char *path, const char *wanted) {
     return result;
 }
 
-static bool is_draft_file(const char *typed) {
-    return path_ends(typed, ".wif") || path_ends(typed, ".dtx") || path_ends(typed, ".wpo");
-}
-
-/* Returns true for words that begin with the name of a weave. */
+/* Returns true for words that begin with the name of a weave and name no file. */
 static bool is_notation(const char *typed) {
+    if (access(typed, F_OK) == 0) return false;
     for (int k = 0; weft_weave_name(k); k++) {
         const size_t size = strlen(weft_weave_name(k));
         if (strncmp(typed, weft_weave_name(k), size) == 0 && strchr(" ;", typed[size])) return true;
@@ -183,7 +181,7 @@ static int of_draft(Model *model, const char *typed) {
     const WeftLog log = {.fn = warned, .user = last.text};
     WeftScene *scene;
     model->kind = MODEL_MATERIAL;
-    if (!is_draft_file(typed)) snprintf(model->name, sizeof model->name, "%.*s", (int)strcspn(typed, " ;"), typed);
+    if (!path_is_draft(typed)) snprintf(model->name, sizeof model->name, "%.*s", (int)strcspn(typed, " ;"), typed);
     if (weft_scene_load("builtin:ball", &scene, NULL, &error) != WEFT_OK) return report_error(&error);
     WeftResult result = weft_scene_weave(scene, "ball", "draft", typed, &log, &error);
     if (result == WEFT_OK) result = weft_scene_weave(scene, "ball", "metres", "1", &log, &error);
@@ -238,7 +236,7 @@ static int of_name(Model *model, const Parts *parts) {
         return of_scene(model, parts->name, wanted);
     }
     if (path_ends(parts->name, ".json") || path_is_cloth(parts->name)) return of_material(model, parts->name);
-    if (model->weaves && (is_draft_file(parts->name) || is_notation(parts->name))) return of_draft(model, parts->name);
+    if (model->weaves && (path_is_draft(parts->name) || is_notation(parts->name))) return of_draft(model, parts->name);
     if (!weft_reflection_readable(parts->name)) return report_unknown(parts->name);
     model->kind = MODEL_MEASURED;
     snprintf(model->path, sizeof model->path, "%s", parts->name);

@@ -189,8 +189,8 @@ const Verb verb_export = {
     .lists = lists,
     .notes = "MODEL is a lobe, an engine profile, a workflow, a preset (preset:NAME where a\n"
              "lobe has that name too), a material file .json, FILE.gltf[:MATERIAL], or a\n"
-             "draft, FILE.wif or words such as \"twill 2/2 z\", which is woven of cotton; all\n"
-             "with settings behind it, " MODEL_FORM ".\n"
+             "draft (.wif, .dtx, .wpo) or words such as \"twill 2/2 z\", woven of cotton;\n"
+             "all with settings behind it, " MODEL_FORM ".\n"
              "Several share what is the same in them; a second lobe stands on the right half\n"
              "of a Shadertoy. docs/export.md explains the functions, pi, and how engines take\n"
              "them.\n\n"

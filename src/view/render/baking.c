@@ -1,4 +1,4 @@
-#define _XOPEN_SOURCE 700 /* nftw */
+#define _XOPEN_SOURCE 700 /* folder.h */
 #include "view/render/baking.h"
 
 #include <pthread.h>

@@ -127,7 +127,7 @@ static int next(Thumbs *self) {
 
 static void *run(void *user) {
     Thumbs *self = user;
-    setpriority(PRIO_PROCESS, (id_t)gettid(), 10); /* as the path tracer's: a lower one starves where others compile */
+    setpriority(PRIO_PROCESS, (id_t)gettid(), 10); /* as the path tracer: a lower one starves where others compile */
     for (int k; (k = next(self)) >= 0;) {
         Thumb made = {.index = k};
         make(self, self->entries[k].path, &made);

@@ -29,7 +29,7 @@ void bakings_copied(Viewer *v, const char *scene, bool failed) {
     if (!bakings->baking) viewer_report(v, true, "out of memory");
 }
 
-bool bakings_busy(const Viewer *v) { return v->bakings->baking || v->bakings->copy.due; }
+bool bakings_busy(const Viewer *v) { return v->bakings->baking || copy_is_due(v, &v->bakings->copy); }
 
 static void take_end(Viewer *v) {
     BakingsState *bakings = &v->states->bakings;

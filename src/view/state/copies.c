@@ -3,8 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "view/render/renderer.h"
 #include "view/render/still.h"
-#include "view/state/states.h"
+#include "view/state/opening.h"
 
 bool copy_is_due(const Viewer *v, const SceneCopy *copy) { return copy->due && copy->scene == v->shown->number; }
 

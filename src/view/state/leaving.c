@@ -81,7 +81,7 @@ static void draw_text(const Viewer *v) {
                  changed);
         ui_wrapped(text);
     }
-    if (v->stills->still && v->leaving->what == LEAVING_WINDOW) {
+    if (stills_busy(v) && v->leaving->what == LEAVING_WINDOW) {
         snprintf(text, sizeof text, "A path-traced picture is being made, %.0f %% of it so far; it would be lost.",
                  100.0 * v->stills->share);
         ui_wrapped(text);

@@ -40,6 +40,7 @@ void stills_make(Viewer *v, const char *path, const StillChoice *choice) {
     }
     if (!copy_request(v, &stills->copy)) return;
     snprintf(due.scene, sizeof due.scene, "%s", stills->copy.path);
+    stills->share = 0.0;
     stills->due = due;
 }
 
@@ -51,7 +52,7 @@ void stills_saved(Viewer *v, const char *scene, bool failed) {
     if (!stills->still) viewer_report(v, true, "out of memory");
 }
 
-bool stills_busy(const Viewer *v) { return v->stills->still || v->stills->copy.due; }
+bool stills_busy(const Viewer *v) { return v->stills->still || copy_is_due(v, &v->stills->copy); }
 
 bool stills_poll(Viewer *v) {
     StillsState *stills = &v->states->stills;
