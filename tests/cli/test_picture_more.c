@@ -116,8 +116,8 @@ static void parts_that_cannot_grow_are_refused_by_name(void **state) {
 
 /* ---- checkpoints */
 
-/* Returns the samples of a picture that takes seconds; under sanitizers (WEFT_TEST_SHORT=1) a tenth of them do. */
-static const char *long_spp(void) { return getenv("WEFT_TEST_SHORT") ? "--spp=640" : "--spp=6400"; }
+/* Returns the samples of a picture that takes seconds; under sanitizers (WEFT_TEST_SHORT=1) a quarter of them do. */
+static const char *long_spp(void) { return getenv("WEFT_TEST_SHORT") ? "--spp=1600" : "--spp=6400"; }
 
 #define LONG PICTURE, long_spp(), "--checkpoint=point.exr", "--checkpoint-every=0.05"
 

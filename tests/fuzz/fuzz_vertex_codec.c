@@ -1,4 +1,4 @@
-/* fuzz_vertex_codec - version 1 of meshoptimizer's vertex codec: the first two bytes are the stride and the count
+/* fuzz_vertex_codec - version 1 of meshoptimizer's vertex codec: the first two bytes choose stride and count
  *
  * Any input must be decoded or refused, without a byte that is read or written beyond. */
 #include <stdint.h>

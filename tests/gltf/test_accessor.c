@@ -340,7 +340,8 @@ static void note_warning(void *user, WeftMessage message, const char *text) {
     snprintf(user, 256, "%s", text);
 }
 
-/* A stream that is not decoded, as one of a version that does not exist: its fallback is read, or one line says what is wrong. */
+/* A stream that is not decoded, as one of a version that does not exist: its fallback is read, or one line
+ * says what is wrong. */
 static void fallback_of_a_stream_that_is_not_decoded_is_read(void **state) {
     (void)state;
     static const uint16_t vertices[4][2] = {{1, 2}, {3, 4}, {5, 6}, {7, 8}};

@@ -1,5 +1,5 @@
-/* Version 1 of the vertex codec: streams that the encoder of npm's meshoptimizer 1.3.0 made (level 3), of deltas of bytes, of words and
- * of bits, in one block and in three; streams that are cut, longer, or changed. */
+/* Version 1 of the vertex codec: streams that the encoder of npm's meshoptimizer 1.3.0 made (level 3), of deltas of bytes,
+ * of words and of bits, in one block and in three; streams that are cut, longer, or changed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

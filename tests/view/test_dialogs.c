@@ -173,6 +173,7 @@ static void a_file_that_is_being_baked_is_not_lost_without_a_question(void **sta
                   "wait 2\nclose\nwait 3\nwindow asks.png\nclick \"Unsaved changes/Cancel\"\n"
                   "wait message dust: 0.3 of it is not baked\n",
                   LIST(UNSEEN, "jeans.glb"));
+    assert_int_equal(access("asks.png", F_OK), 0); /* it was still open, since it asked */
     assert_int_equal(access("jeans-weft.glb", F_OK), 0);
 }
 
