@@ -1,5 +1,5 @@
-/* Woven cards under an even sky are as bright in the raster engine as in the path tracer, however they are tilted and
- * rotated, near and far, and gaps of a loose one leave as much open
+/* Woven cards and pile under an even sky are as bright in the raster engine as in the path tracer, however they are
+ * tilted and rotated, near and far, and gaps of a loose one leave as much open
  *
  * Labels: slow unsanitized */
 #include <math.h>
@@ -19,9 +19,9 @@
 #include "trace/scenes.h"
 #include "weft/weft.h"
 
-enum { SIDE = 48, SAMPLES = 64, TILTS = 3, HEADINGS = 4 };
+enum { SIDE = 48, SAMPLES = 64, TILTS = 3, HEADINGS = 5 };
 
-static const float tilts[TILTS] = {0.0f, 60.0f, 84.0f}, headings[HEADINGS] = {0.0f, 45.0f, 90.0f, 135.0f};
+static const float tilts[TILTS] = {0.0f, 60.0f, 84.0f}, headings[HEADINGS] = {0.0f, 45.0f, 90.0f, 135.0f, 180.0f};
 
 /* A square of 2 m in the plane z = 0 under a sky of 1. */
 static WeftScene *card(void) {
@@ -143,8 +143,35 @@ static void gaps_stay_open(void **state) {
     weft_scene_free(scene);
 }
 
+/* Leaning fibres of a colour, with a ground and without: against the nap most light meets one fibre, along it several,
+ * which colours it more. With the tint across the nap for every heading they are up to 52 % off, without a ground
+ * 239 %. */
+static void naps_reflect_what_they_reflect_in_the_path_tracer(void **state) {
+    (void)state;
+    need_gl();
+    static const char piles[][200] = {
+        "{\"base_color\": \"#000000\", \"specular\": 0, \"sheen_color\": \"#e8767f\", \"sheen_roughness\": 0.65, "
+        "\"sheen_lobe\": \"fibre\", \"nap\": 20, \"layer\": \"albedo-view\"}",
+        "{\"base_color\": \"#5a0d14\", \"specular\": 0.3, \"sheen_color\": \"#e8767f\", \"sheen_roughness\": 0.65, "
+        "\"sheen_lobe\": \"fibre\", \"nap\": 20, \"layer\": \"albedo-view\"}"};
+    bool all = true;
+    for (size_t k = 0; k < sizeof piles / sizeof *piles; k++) {
+        WeftScene *scene = card();
+        WeftError error;
+        if (weft_scene_assign_material_memory(scene, NULL, piles[k], strlen(piles[k]), "mine.json", NULL, &error) !=
+            WEFT_OK)
+            fail_msg("%s", error.text);
+        all = check(k ? "pile on a ground" : "pile", scene, 0.15f, 0.04) && all;
+        weft_scene_free(scene);
+    }
+    all = check_preset("sadeghi-velvet") && all;
+    all = check_preset("woven-velvet") && all;
+    assert_true(all);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(weaves_reflect_what_they_reflect_in_the_path_tracer),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(naps_reflect_what_they_reflect_in_the_path_tracer),
+                                       cmocka_unit_test(weaves_reflect_what_they_reflect_in_the_path_tracer),
                                        cmocka_unit_test(gaps_stay_open)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -277,6 +277,49 @@ static void tinted_lobes_have_the_tint_of_a_direction(void **state) {
     assert_true(checked > 0);
 }
 
+/* Grey fibres that lean reflect an even sky as they do from all directions, to whichever side the viewer is. */
+static void leaning_lobes_have_the_tint_of_their_heading(void **state) {
+    (void)state;
+    static AlbedoTable albedo;
+    static AmbientWeights baked[AMBIENT_BAKED];
+    static AmbientFit table;
+    const float greys[3] = {0.1f, 0.3f, 0.8f};
+    int checked = 0;
+    for (int id = 0; id < LOBE_COUNT; id++) {
+        if (!(weft_lobe_info(id)->traits & TRAIT_TINTED) || !asked(id) || ambient_lean_azimuth(id) < 0) continue;
+        for (int k = 0; k < 3; k++) {
+            Lobe lobe = lobe_rough(id, 0.65f + 0.1f * (float)k);
+            lobe_set(&lobe, weft_lobe_param_find(id, "tilt"), 0.2f + 0.15f * (float)k);
+            fill_own(&albedo, &lobe);
+            AmbientTable t = bake(&lobe, ambient_strategy(id, true, false), baked);
+            ambient_fit(&table, &lobe, 0.9f * lobe.params[0], lobe.params[0], 0);
+            for (int n = 0; n < 20; n++) {
+                Dir o = direction_cos(0.1 + 0.2 * (n % 4), 0.25 * PI_DOUBLE * (n % 5));
+                Even sky = {.radiance = 1.0f};
+                AmbientSourceCalls calls = even_calls(&sky);
+                float e[3];
+                calls.baked = baked;
+                albedo_in_color(&lobe, o, greys, 1e-4, e);
+                SeenStack m = tabled(lobe, o, &albedo);
+                m.stack.nap = nap_of(lobe.params[weft_lobe_param_find(id, "tilt")], dir(1.0f, 0.0f, 0.0f));
+                m.stack.sheen.f0 = rgb(greys[0], greys[1], greys[2]);
+                seen_prepare(&m, o);
+                for (int kept = 0; kept < 2; kept++) {
+                    const AmbientTable of = kept ? ambient_table(&table, AMBIENT_FITTED) : t;
+                    Rgb got = ambient_of(m, all_tables(of), &calls, 1.0f);
+                    float off = max(max(abs(got.r / e[0] - 1.0f), abs(got.g / e[1] - 1.0f)), abs(got.b / e[2] - 1.0f));
+                    if (!(off < 0.04f))
+                        fail_msg("%s, %s: %g, %g, %g for %g, %g, %g", case_name(&lobe, o).text,
+                                 kept ? "table" : "baked", (double)got.r, (double)got.g, (double)got.b, (double)e[0],
+                                 (double)e[1], (double)e[2]);
+                    checked++;
+                }
+            }
+        }
+    }
+    assert_true(checked > 0);
+}
+
 /* The cosine-weighted mean of what is seen is the occlusion, and more is never seen less of. */
 static void occlusion_of_lights_has_the_stated_mean(void **state) {
     (void)state;
@@ -555,6 +598,7 @@ int main(void) {
                                        cmocka_unit_test(baked_weights_return_the_albedo),
                                        cmocka_unit_test(environment_lights_are_shaded_as_lights),
                                        cmocka_unit_test(tinted_lobes_have_the_tint_of_a_direction),
+                                       cmocka_unit_test(leaning_lobes_have_the_tint_of_their_heading),
                                        cmocka_unit_test(occlusion_of_lights_has_the_stated_mean),
                                        cmocka_unit_test(layer_rules_dim_the_base_under_an_environment),
                                        cmocka_unit_test(light_of_the_map_is_in_lights_or_residual),

@@ -111,6 +111,7 @@ typedef struct Reflected {
     Dir i[SAMPLES];      /* x towards wo */
     float w[2][SAMPLES]; /* weights, of the first colour and of the second */
     double e[2];         /* E: the sums of the weights */
+    double s;            /* sum of the weights times s of the tint */
     double log2_density; /* mean of log2(f cos_i) over the reflected light */
 } Reflected;
 
@@ -130,7 +131,7 @@ static float radical_inverse(uint32_t k) {
 static void reflect(Reflected *light, const AmbientMixture *from, float cos_o, float azimuth, bool by_azimuth) {
     const float sin_o = sqrt(max(1.0f - cos_o * cos_o, 0.0f)), tx = cos(azimuth), side = sin(azimuth);
     light->count = 0;
-    light->e[0] = light->e[1] = light->log2_density = 0.0;
+    light->e[0] = light->e[1] = light->s = light->log2_density = 0.0;
     for (int k = 0; k < SAMPLES; k++) {
         const float ty = by_azimuth && k & 1 ? -side : side;
         const int pair = by_azimuth ? k / 2 : k;
@@ -146,6 +147,7 @@ static void reflect(Reflected *light, const AmbientMixture *from, float cos_o, f
         light->w[0][n] = w * (1.0f - fresnel_weight_uncolored(value.s)) * part->first;
         light->w[1][n] = w * fresnel_weight_uncolored(value.s) * part->second;
         for (int c = 0; c < 2; c++) light->e[c] += (double)light->w[c][n];
+        light->s += (double)(light->w[0][n] * value.tint.s);
         const float both = light->w[0][n] + light->w[1][n];
         light->log2_density += (double)(both * log2(max(value.f * i.z, 1e-30f)));
     }
@@ -236,7 +238,12 @@ static void fit_shape(AmbientFit *fit, const Reflected *light, FitNode at) {
     *entry(fit, at, PLANE_DENSITY) = (float)light->log2_density + log2((float)(17.0794684453471 / e));
 }
 
-/* Sets the planes of the weights and of E. */
+/* Returns true if the lobe's tint takes the place of a second colour. */
+static bool is_tinted(const AmbientFit *fit) {
+    return (weft_lobe_info(fit->lobe.id)->traits & (TRAIT_TINTED | TRAIT_TWO_COLORS)) == TRAIT_TINTED;
+}
+
+/* Sets the planes of the weights, of E and of s. */
 static void fit_weights(const Fitter *fitter, const Reflected *light, FitNode at) {
     AmbientFit *fit = fitter->fit;
     double b[2][LOOKUPS], w[LOOKUPS];
@@ -250,6 +257,7 @@ static void fit_weights(const Fitter *fitter, const Reflected *light, FitNode at
     solve(fitter, b[1], light->e[1], w);
     for (int k = 0; k < LOOKUPS; k++) *entry(fit, at, 4 * AMBIENT_GROUP_SECOND + k) = (float)w[k];
     *entry(fit, at, AMBIENT_PLANE_E_SECOND) = (float)light->e[1];
+    if (is_tinted(fit)) *entry(fit, at, 4 * AMBIENT_GROUP_SECOND) = (float)(light->s / fmax(light->e[0], 1e-30));
 }
 
 /* Returns the number of headings that have entries. */
@@ -428,8 +436,8 @@ static void bake_planes(const AmbientFit *fit, int heading, int first, int end, 
     }
 }
 
-/* Sets the coefficients of a heading. For the ratios w / E and the shape of the lobe, columns count where the lobe is
- * bright, and only a little where it fades away. */
+/* Sets the coefficients of a heading. For the ratios w / E, the shape of the lobe and its s, columns count where the
+ * lobe is bright, and only a little where it fades away. */
 static void bake_heading(const AmbientFit *fit, int heading, AmbientWeights out[AMBIENT_HEADING]) {
     double most = 1e-9, value[AMBIENT_COLUMNS], shape[AMBIENT_COLUMNS]; /* weights for E and w, and for these */
     for (int column = 0; column < AMBIENT_COLUMNS; column++) most = fmax(most, albedo_at(fit, heading, column));
@@ -441,7 +449,7 @@ static void bake_heading(const AmbientFit *fit, int heading, AmbientWeights out[
     bake_planes(fit, heading, 0, AMBIENT_PLANE_E, shape, out);
     bake_planes(fit, heading, AMBIENT_PLANE_E, AMBIENT_PLANE_E + 1, value, out);
     bake_planes(fit, heading, PLANE_AXIS, PLANE_TAIL + 1, shape, out);
-    bake_planes(fit, heading, 4 * AMBIENT_GROUP_SECOND, PLANES_BAKED, value, out);
+    bake_planes(fit, heading, 4 * AMBIENT_GROUP_SECOND, PLANES_BAKED, is_tinted(fit) ? shape : value, out);
 }
 
 void ambient_bake(const AmbientFit *fit, AmbientWeights out[AMBIENT_BAKED]) {

@@ -202,7 +202,7 @@ FN SlotLight ambient_lookup_light(AmbientTable t, AmbientSource s, AmbientView v
         a = ambient_mirror_light(t, s, v, p, e);
     else
         a = ambient_fitted_light(t, s, v, residual, at, e);
-    a.reflected.first = ambient_tinted(tint.whole, tint.flakes, a.reflected.first);
+    a.reflected.first = ambient_tinted(ambient_tint_at(t, s, at, tint.whole), tint.flakes, a.reflected.first);
     return a;
 }
 

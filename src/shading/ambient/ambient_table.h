@@ -22,7 +22,8 @@
  *   SHAPE    the sine of the angle between the normal and the lobe's mean direction, positive towards wo;
  *            log2 of the lobe's kappa; its tail, 0 for a Gaussian and 1 for ggx; log2 of the kappa of a
  *            single-axis lobe with the same density as this lobe (for AmbientFit.denser)
- *   SECOND   second colour: w_0, w_1, w_2, w_3
+ *   SECOND   second colour: w_0, w_1, w_2, w_3. A tinted lobe has none: its w_0 is s of its tint (tint.h), which is the
+ *            mean of s over the light that it reflects, and the rest is 0.
  *
  * The plane after the groups is E of the second colour. */
 #define AMBIENT_GROUP_FIRST  0
@@ -149,6 +150,16 @@ FN AmbientWeights ambient_group(AmbientTable t, AmbientSource s, AmbientCoord at
     if (t.baked >= 0) return ambient_baked_group(t, s, at, group);
     return ambient_weights(ambient_entry(t, at, 4 * group), ambient_entry(t, at, 4 * group + 1),
                            ambient_entry(t, at, 4 * group + 2), ambient_entry(t, at, 4 * group + 3));
+}
+
+/* Returns the tint of the light that a tinted lobe reflects to a wo of that heading. Of a lobe with a nap s depends on
+ * the heading: against the nap most light meets one fibre, along it several. q and e hardly do, and stay those of
+ * `tint`, which are across the nap. */
+FN Tint ambient_tint_at(AmbientTable t, AmbientSource s, AmbientCoord at, Tint tint) {
+    Tint x = tint;
+    if (IS_TINTED(tint) && t.by_azimuth && !t.second)
+        x.s = clamp(ambient_group(t, s, at, AMBIENT_GROUP_SECOND).a, 0.0f, 1.0f);
+    return x;
 }
 
 /* E of a lobe's two colours, and its division among the four look-ups. */
