@@ -185,8 +185,8 @@ static void whole_input_read(const Field *field, InputId id, Input *input) {
     for (int c = 0; c < count; c++) input->value[c] = input_clamped(id, input->value[c]);
     field_floats(&transform, input->transform, 6, -most, most);
     input->texture = field_index(&texture, field->asset->texture_count) + 1;
-    const int n = (int)field_size(&texcoord, 0, 0, 1);
-    if (input->texture) coordinates_give(field, input, n);
+    input->texcoord = (int)field_size(&texcoord, 0, 0, 1);
+    if (input->texture) coordinates_give(field, input, input->texcoord);
     input->channel = (uint8_t)field_size(&channel, 0, 0, 3);
     input->given = field_bool(&given, false);
 }
