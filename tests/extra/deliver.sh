@@ -34,7 +34,7 @@ fi
 rm -rf files
 node prepare.mjs "$program" "$@"
 for viewer in three babylon filament; do
-    browse 180 "page.html?$viewer" --use-angle=swiftshader --enable-unsafe-swiftshader --allow-file-access-from-files
+    browse 360 "page.html?$viewer" --use-angle=swiftshader --enable-unsafe-swiftshader --allow-file-access-from-files
     kill "$browser"
     wait "$browser" || true
     mv chromium.log "$viewer.log"

@@ -30,7 +30,7 @@ texts() { for file in ./*."$1"; do jq -Rs --arg name "${file#./}" '{($name): .}'
     printf '};\n'
 } >texts.js
 browser() {
-    timeout 300 chromium --headless --no-sandbox --disable-gpu-sandbox --use-gl=angle --use-angle=swiftshader \
+    timeout 600 chromium --headless --no-sandbox --disable-gpu-sandbox --use-gl=angle --use-angle=swiftshader \
         --enable-unsafe-swiftshader --hide-scrollbars --virtual-time-budget=250000 "$@" 2>chromium.log
 }
 browser --dump-dom "file://$PWD/export.html" >report.html

@@ -19,7 +19,7 @@ cd "$2/judge"
 cp "$here"/judge* .
 node judge.mjs files
 for engine in three babylon; do
-    browse 240 judge-$engine.html --use-angle=swiftshader --enable-unsafe-swiftshader --allow-file-access-from-files
+    browse 480 judge-$engine.html --use-angle=swiftshader --enable-unsafe-swiftshader --allow-file-access-from-files
     kill "$browser" 2>/dev/null || true
     mv chromium.log $engine.log
 done

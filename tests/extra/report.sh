@@ -27,7 +27,7 @@ echo "$asking" >>asked.html
 sed 's|</body>|<img src="http://elsewhere.invalid/a.png" alt=""></body>|' report.html >spoiled.html
 
 browse() {
-    timeout 120 chromium --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking \
+    timeout 240 chromium --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking \
         --host-resolver-rules='MAP * ~NOTFOUND' --user-data-dir="$PWD/profile" --enable-logging=stderr \
         --virtual-time-budget=10000 "$2" "file://$PWD/$1.html" >"$1.out" 2>"$1.err"
 }
