@@ -41,11 +41,11 @@ const asset = (file, eye, target, degrees, most) => ({
 export const things = {
     velvet: cloth("velvet", {three: [0.04, 0.15], babylon: [0.03, 0.03], filament: [0.05, 0.05]}),
     denim: cloth("woven-denim", {three: [0.1, 0.05], babylon: [0.1, 0.05], filament: [0.1, 0.1]}),
-    gabardine: cloth("woven-gabardine", {three: [0.08, 0.05], babylon: [0.1, 0.06], filament: [0.09, 0.07]}),
+    gabardine: cloth("woven-gabardine", {three: [0.08, 0.05], babylon: [0.12, 0.06], filament: [0.09, 0.07]}),
     satin: cloth("woven-charmeuse", {three: [0.2, 0.05], babylon: [0.36, 0.4], filament: [0.42, 0.23]}),
     shantung: cloth("woven-shantung"),
     linen: cloth("woven-linen", {three: [0.1, 0.06], babylon: [0.12, 0.15], filament: [0.13, 0.11]}),
-    flannel: cloth("woven-wool", {three: [0.1, 0.08], babylon: [0.12, 0.07], filament: [0.12, 0.07]}),
+    flannel: cloth("woven-wool", {three: [0.1, 0.08], babylon: [0.12, 0.08], filament: [0.12, 0.07]}),
     poplin: cloth("woven-poplin"),
     corduroy: cloth("woven-corduroy"),
     "woven-velvet": cloth("woven-velvet"),
