@@ -70,7 +70,8 @@ static void damaged_webp_is_refused(void **state) {
 }
 
 static void put_number(Bytes *bytes, int number, int count) {
-    for (int k = 0; k < count; k++) put_byte(bytes, number >> (8 * k) & 255);
+    const uint64_t bits = (uint64_t)number;
+    for (int k = 0; k < count; k++) put_byte(bytes, (int)(bits >> (8 * k) & 255));
 }
 
 /* Puts a picture as a frame of an animation, at an even place of the canvas. */
