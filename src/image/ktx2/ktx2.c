@@ -9,11 +9,7 @@
 enum {
     HEADER = 80,
     LEVEL = 24, /* bytes of an entry of the level index */
-    LEVELS_MOST = 17,
-    MODEL_ETC1S = 163,
-    MODEL_UASTC = 166,
-    TRANSFER_LINEAR = 1,
-    FLAG_PREMULTIPLIED = 1
+    LEVELS_MOST = 17
 };
 
 static const unsigned char signature[12] = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
@@ -41,15 +37,15 @@ static const struct {
 static const struct {
     int model, first, second, channels, from[4];
 } contents[] = {
-    {MODEL_UASTC, 0, 0, 3, {0, 1, 2}},
-    {MODEL_UASTC, 3, 0, 4, {0, 1, 2, 3}},
-    {MODEL_UASTC, 4, 0, 1, {0}},
-    {MODEL_UASTC, 5, 0, 3, {0, 3, KTX2_NOTHING}},
-    {MODEL_UASTC, 6, 0, 3, {0, 1, KTX2_NOTHING}},
-    {MODEL_ETC1S, 0, 0, 3, {0, 1, 2}},
-    {MODEL_ETC1S, 0, 15, 4, {0, 1, 2, 3}},
-    {MODEL_ETC1S, 3, 0, 1, {0}},
-    {MODEL_ETC1S, 3, 4, 3, {0, 3, KTX2_NOTHING}},
+    {KTX2_MODEL_UASTC, 0, 0, 3, {0, 1, 2}},
+    {KTX2_MODEL_UASTC, 3, 0, 4, {0, 1, 2, 3}},
+    {KTX2_MODEL_UASTC, 4, 0, 1, {0}},
+    {KTX2_MODEL_UASTC, 5, 0, 3, {0, 3, KTX2_NOTHING}},
+    {KTX2_MODEL_UASTC, 6, 0, 3, {0, 1, KTX2_NOTHING}},
+    {KTX2_MODEL_ETC1S, 0, 0, 3, {0, 1, 2}},
+    {KTX2_MODEL_ETC1S, 0, 15, 4, {0, 1, 2, 3}},
+    {KTX2_MODEL_ETC1S, 3, 0, 1, {0}},
+    {KTX2_MODEL_ETC1S, 3, 4, 3, {0, 3, KTX2_NOTHING}},
 };
 
 static uint32_t word_at(const ImageSource *source, size_t at) { return (uint32_t)little_endian(source->data + at, 4); }
@@ -88,15 +84,15 @@ static WeftResult blocks_find(Ktx2 *file, const unsigned char *basic, size_t siz
     if (size < BASIC + SAMPLE) return damaged(file->source, "its data format descriptor is cut", error);
     const int model = basic[8], first = basic[BASIC + 3] & 15;
     const int second = size >= BASIC + 2 * SAMPLE ? basic[BASIC + SAMPLE + 3] & 15 : 0;
-    if (model != MODEL_ETC1S && model != MODEL_UASTC)
+    if (model != KTX2_MODEL_ETC1S && model != KTX2_MODEL_UASTC)
         return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, file->source->name,
                     "KTX 2: blocks of colour model %d, neither ETC1S nor UASTC LDR; convert it to one of these", model);
-    if ((model == MODEL_ETC1S) != (file->scheme == KTX2_BASISLZ))
+    if ((model == KTX2_MODEL_ETC1S) != (file->scheme == KTX2_BASISLZ))
         return damaged(file->source, "ETC1S without BasisLZ, or BasisLZ without ETC1S", error);
     for (size_t k = 0; k < sizeof contents / sizeof *contents; k++) {
         if (contents[k].model != model || contents[k].first != first || contents[k].second != second) continue;
-        file->coding = model == MODEL_ETC1S ? KTX2_ETC1S : KTX2_UASTC;
-        file->linear = basic[10] == TRANSFER_LINEAR;
+        file->coding = model == KTX2_MODEL_ETC1S ? KTX2_ETC1S : KTX2_UASTC;
+        file->linear = basic[10] == KTX2_TRANSFER_LINEAR;
         file->stored = 4;
         file->channels = contents[k].channels;
         memcpy(file->from, contents[k].from, sizeof file->from);
@@ -112,7 +108,7 @@ static WeftResult descriptor_read(Ktx2 *file, WeftError *error) {
     const uint32_t vulkan = word_at(source, 12);
     if (at + size > source->size) return damaged(source, "its data format descriptor lies behind its end", error);
     const bool whole = size >= 4 + 12;
-    if (whole && source->data[at + 4 + 11] & FLAG_PREMULTIPLIED)
+    if (whole && source->data[at + 4 + 11] & KTX2_PREMULTIPLIED)
         warn(source->log, WEFT_MESSAGE_IMAGE_REPAIRED, source->name,
              "KTX 2: its colours are multiplied by alpha, and read as they are");
     if (vulkan) return format_find(file, vulkan, error);

@@ -24,6 +24,15 @@ typedef enum Ktx2Coding {
 /* The supercompression of a file: BasisLZ is of ETC1S alone. */
 typedef enum Ktx2Scheme { KTX2_NONE, KTX2_BASISLZ, KTX2_ZSTANDARD, KTX2_ZLIB, KTX2_SCHEMES } Ktx2Scheme;
 
+/* Numbers of the data format descriptor: colour models of blocks, transfer functions, a flag. */
+enum {
+    KTX2_MODEL_ETC1S = 163,
+    KTX2_MODEL_UASTC = 166,
+    KTX2_TRANSFER_LINEAR = 1,
+    KTX2_TRANSFER_SRGB = 2,
+    KTX2_PREMULTIPLIED = 1
+};
+
 /* A channel of a picture is read from a channel that is decoded, or from nothing. */
 enum { KTX2_NOTHING = -1 };
 

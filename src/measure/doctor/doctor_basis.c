@@ -26,7 +26,6 @@ enum {
 
 /* Numbers of the descriptor, behind its size: colour model, primaries, transfer function, flags. */
 enum { MODEL = 12, TRANSFER = 14, FLAGS = 15, BLOCK = 16 };
-enum { MODEL_ETC1S = 163, MODEL_UASTC = 166, TRANSFER_LINEAR = 1, TRANSFER_SRGB = 2, PREMULTIPLIED = 1 };
 
 static size_t number_at(Span file, size_t at) { return (size_t)little_endian(file.data + at, 4); }
 
@@ -50,11 +49,11 @@ static bool basis_fault(Span file, const char *color, const char *data, char wor
     const size_t block = number_at(file, DESCRIPTOR), width = number_at(file, WIDTH), height = number_at(file, HEIGHT);
     if (block > file.size || file.size - block < BLOCK) return false; /* no reader takes it */
     const int model = file.data[block + MODEL], transfer = file.data[block + TRANSFER];
-    const char *use = color && transfer != TRANSFER_SRGB              ? color
-                      : !color && data && transfer != TRANSFER_LINEAR ? data
-                                                                      : NULL;
+    const char *use = color && transfer != KTX2_TRANSFER_SRGB              ? color
+                      : !color && data && transfer != KTX2_TRANSFER_LINEAR ? data
+                                                                           : NULL;
     words[0] = 0;
-    if (model != MODEL_ETC1S && model != MODEL_UASTC)
+    if (model != KTX2_MODEL_ETC1S && model != KTX2_MODEL_UASTC)
         snprintf(words, 192, "its texels are neither ETC1S nor UASTC");
     else if (number_at(file, SCHEME) > KTX2_ZSTANDARD)
         snprintf(words, 192, "it is packed neither by BasisLZ nor by Zstandard");
@@ -66,20 +65,20 @@ static bool basis_fault(Span file, const char *color, const char *data, char wor
         snprintf(words, 192, "its KTXorientation is not rd");
     else if (key_differs(file, "KTXswizzle", "rgba"))
         snprintf(words, 192, "its KTXswizzle is not rgba");
-    else if (file.data[block + FLAGS] & PREMULTIPLIED)
+    else if (file.data[block + FLAGS] & KTX2_PREMULTIPLIED)
         snprintf(words, 192, "its colours are multiplied by alpha");
     else if (use)
         snprintf(words, 192, "its transfer function is %s, but it is used as %.60s",
-                 transfer == TRANSFER_SRGB     ? "that of sRGB"
-                 : transfer == TRANSFER_LINEAR ? "linear"
-                                               : "another",
+                 transfer == KTX2_TRANSFER_SRGB     ? "that of sRGB"
+                 : transfer == KTX2_TRANSFER_LINEAR ? "linear"
+                                                    : "another",
                  use);
     return words[0] != 0;
 }
 
 void check_basis(WeftDoctor *doctor, int image, Span file, const char *color, const char *data) {
     char words[192];
-    if (file.size < HEADER || memcmp(file.data, "\xabKTX 20\xbb\r\n\x1a\n", 12) != 0) return;
+    if (file.size < HEADER || !ktx2_starts(file.data, file.size)) return;
     if (!basis_fault(file, color, data, words)) return;
     doctor_found(doctor, WEFT_FINDING_IMAGE_BASIS, (Place){WEFT_OF_IMAGE, image, NULL}, 0, (double)NAN, NULL,
                  "%s, which KHR_texture_basisu does not allow: engines may refuse it or show it otherwise", words);
