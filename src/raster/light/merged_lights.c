@@ -2,13 +2,13 @@
 
 #include <math.h>
 
+#include "shading/dialect/rgb.h"
+
 /* A light, with the luminance that it has of each of the environment's. */
 typedef struct LightCluster {
     EnvLight light;
     float luminance, of[AMBIENT_LIGHTS_MAX];
 } LightCluster;
-
-static float luminance_of(const float color[3]) { return 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2]; }
 
 /* Returns how much further the light of two groups lies from their mean direction than from that of each. */
 static float added_spread(const LightCluster *a, const LightCluster *b) {
@@ -24,7 +24,6 @@ static LightCluster merged(const LightCluster *a, const LightCluster *b) {
     sum.luminance = a->luminance + b->luminance;
     sum.light.spread = (a->luminance * a->light.spread + b->luminance * b->light.spread + added_spread(a, b)) / all;
     sum.light.direction = vec3_normal_or(both, a->light.direction);
-    sum.light.points = a->light.points + b->light.points;
     for (int c = 0; c < 3; c++) sum.light.color[c] += b->light.color[c];
     for (int k = 0; k < AMBIENT_LIGHTS_MAX; k++) sum.of[k] += b->of[k];
     return sum;
@@ -48,7 +47,8 @@ int merged_lights(const AmbientParts *parts, MergedLight out[MERGED_LIGHTS]) {
     int count = parts->env_light_count;
     for (int k = 0; k < count; k++) {
         const EnvLight *light = &parts->env_lights[k];
-        groups[k] = (LightCluster){.light = *light, .luminance = luminance_of(light->color)};
+        const float *c = light->color;
+        groups[k] = (LightCluster){.light = *light, .luminance = rgb_luminance(rgb(c[0], c[1], c[2]))};
         groups[k].of[k] = groups[k].luminance;
     }
     for (; count > MERGED_LIGHTS; count--) merge_two(groups, count);

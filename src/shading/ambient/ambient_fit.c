@@ -22,6 +22,7 @@
 #include "base/equal.h"
 #include "base/matrix.h"
 #include "base/thread.h"
+#include "shading/dialect/points.h"
 
 /* The planes of group SHAPE. A group is four planes (ambient_table.h): FIRST has w_1 / E to w_3 / E and E of the first
  * colour, SECOND has w_0 to w_3 of the second. */
@@ -115,17 +116,9 @@ typedef struct Reflected {
     double log2_density; /* mean of log2(f cos_i) over the reflected light */
 } Reflected;
 
-/* Returns k with its binary digits mirrored at the binary point. This is the second coordinate of J. M. Hammersley's
- * points, "Monte Carlo Methods for Solving Multivariable Problems", 1960. */
-static float radical_inverse(uint32_t k) {
-    float x = 0.0f;
-    for (float place = 0.5f; k; k >>= 1, place *= 0.5f)
-        if (k & 1) x += place;
-    return x;
-}
-
 /* Samples the light that a mixture reflects from wo, its lobes one after the other by multiples of the golden ratio,
- * which are as evenly spread as the samples' numbers. azimuth: of wo. If the lobes depend on it, half of the samples
+ * which are as evenly spread as the samples' numbers. The second number of a sample is that of J. M. Hammersley's points,
+ * "Monte Carlo Methods for Solving Multivariable Problems", 1960: k with its binary digits mirrored at the binary point. azimuth: of wo. If the lobes depend on it, half of the samples
  * have the mirrored azimuth. Tables are indexed by its cosine, which both share, so a node is the mean of both. Yarns
  * across wo, for example, reflect differently to their two sides. */
 static void reflect(Reflected *light, const AmbientMixture *from, float cos_o, float azimuth, bool by_azimuth) {
@@ -137,7 +130,7 @@ static void reflect(Reflected *light, const AmbientMixture *from, float cos_o, f
         const int pair = by_azimuth ? k / 2 : k;
         const AmbientPart *part = &from->parts[(int)(from->count * fmod(0.6180339887498949 * pair, 1.0))];
         Dir o = dir(sin_o * tx, sin_o * ty, cos_o);
-        Dir i = lobe_sample(&part->lobe, o, ((float)k + 0.5f) / SAMPLES, radical_inverse((uint32_t)pair));
+        Dir i = lobe_sample(&part->lobe, o, ((float)k + 0.5f) / SAMPLES, point_fraction(reverse_bits((uint)pair)));
         if (!(i.z > 0.0f)) continue;
         LobeValue value = lobe_value(&part->lobe, angles_between(o, i));
         if (!(value.pdf > 0.0f)) continue;
