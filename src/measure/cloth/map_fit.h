@@ -40,8 +40,8 @@ enum { PART_REST, PART_BASE, PART_SHEEN = PART_BASE + 3, PARTS };
 
 typedef struct LookBlock {
     LookTexel texels[TEXELS]; /* those that are shaded, and the coarse one behind them */
-    double fine[PARTS]
-               [MAP_PAIRS]; /* of the texels as they are: their mean. Of skies: shares of what is seen of radiance 1 */
+    /* of the texels as they are: their mean. Of skies: shares of what is seen of radiance 1 */
+    double fine[PARTS][MAP_PAIRS];
     double coarse[PARTS][MAP_PAIRS];
     double near[2][MAP_CONTRASTS]; /* what two halves of the points of threads in it reflect, means of channels */
 } LookBlock;

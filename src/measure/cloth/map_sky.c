@@ -12,7 +12,7 @@ typedef struct SkySplit {
     float a, b, e;
 } SkySplit;
 
-/* One channel of a surface. */
+/* Holds the numbers of a surface that count in a channel. */
 typedef struct SkyBase {
     float f0, color, metallic, specular; /* f0: of dielectrics */
 } SkyBase;
@@ -41,19 +41,20 @@ static float babylon_base(SkySplit s, SkyBase b) {
     return facets_all(s, f0, f0 * s.a + f90 * s.b) + b.color * (1.0f - fminf(taken, 1.0f));
 }
 
-static const struct {
+static const struct SkyViewer {
     int view;
     float (*base)(SkySplit split, SkyBase base);
 } viewers[] = {{VIEW_THREE, three_base}, {VIEW_FILAMENT, filament_base}, {VIEW_BABYLON, babylon_base}};
 enum { VIEWERS = sizeof viewers / sizeof *viewers };
 
-static int viewer_of(const Stack *stack) {
-    int found = 0;
-    while (found < VIEWERS && viewers[found].view != stack->view) found++;
-    return found;
+/* Returns the viewer of a stack; NULL: it is none of these. */
+static const struct SkyViewer *viewer_of(const Stack *stack) {
+    for (int k = 0; k < VIEWERS; k++)
+        if (viewers[k].view == stack->view) return &viewers[k];
+    return NULL;
 }
 
-bool map_sky_is_own(const Stack *stack) { return viewer_of(stack) < VIEWERS; }
+bool map_sky_is_own(const Stack *stack) { return viewer_of(stack) != NULL; }
 
 WeftResult map_sky_create(MapSky *out, WeftError *error) {
     const WeftBakeDesc desc = {.kind = "dfg", .width = SIDE, .height = SIDE, .form = {.edges = 1}};
@@ -81,9 +82,9 @@ Rgb map_sky_light(const MapSky *sky, const SeenStack *seen, const Surface *surfa
     const float rim = HAS_SHEEN(&seen->stack) ? seen->view.e_o.e : 0.0f;
     const float keep = fmaxf(1.0f - rgb_max3(sheen) * rim, 0.0f);
     const float f0s[3] = {f0.r, f0.g, f0.b}, colors[3] = {color.r, color.g, color.b};
-    float light[3];
-    for (int c = 0; c < 3; c++)
-        light[c] = keep * viewers[viewer_of(&seen->stack)].base(
-                              split, (SkyBase){f0s[c], colors[c], surface->metallic, surface->specular});
+    const struct SkyViewer *viewer = viewer_of(&seen->stack);
+    float light[3] = {0.0f, 0.0f, 0.0f};
+    for (int c = 0; c < 3 && viewer; c++)
+        light[c] = keep * viewer->base(split, (SkyBase){f0s[c], colors[c], surface->metallic, surface->specular});
     return rgb_add(rgb_scale(sheen, rim), rgb(light[0], light[1], light[2]));
 }

@@ -177,8 +177,8 @@ static WeftResult materials_level(Rewrite *rewrite, const WeftScene *scene, Weft
             result = material_level(rewrite, scene, (int)k, object, &changed, error);
         *count += changed;
     }
-    char *extensions = result == WEFT_OK && delivery ? viewer_extensions_text(rewrite->root) : NULL;
     if (result != WEFT_OK || !delivery) return result;
+    char *extensions = viewer_extensions_text(rewrite->root);
     if (!extensions) return fail(error, WEFT_MESSAGE_MEMORY, rewrite->asset->name, NULL);
     free(delivery->extensions);
     delivery->extensions = extensions;
