@@ -110,8 +110,6 @@ static void put_kappa(Text *text, const LobeNames *own, const char *p, bool focu
 
 static void put_light(Text *text, const LobeNames *own, const char *p, bool focus) {
     const char *entry = own->prefix;
-    char close[32];
-    snprintf(close, sizeof close, "%s", number(AMBIENT_CLOSE).text);
     text_line(
         text,
         "\n/* The light of the map that the lobe sends towards wo; look0 to look%d: the means of the map under the "
@@ -130,7 +128,7 @@ static void put_light(Text *text, const LobeNames *own, const char *p, bool focu
         text_line(text,
                   "    float x = clamp(0.5 + %s * (%s_ambient_entry(%s, wo.z, %d) - %s), 0.0, 1.0);\n"
                   "    mean = rgb_mix(mean, look6, x * x * (3.0 - 2.0 * x));",
-                  number(0.5f / AMBIENT_BLEND).text, entry, p, PLANE_KAPPA, close);
+                  number(0.5f / AMBIENT_BLEND).text, entry, p, PLANE_KAPPA, number(AMBIENT_CLOSE).text);
     text_line(text, "    return rgb_mul(color, rgb_scale(mean, %s_albedo(m, wo.z)));\n}", own->prefix);
 }
 

@@ -138,11 +138,11 @@ static void baking_name(const WeftBaking *how, char name[64]) {
     snprintf(name, 64, "%.32s-%d-%d", how->profile, how->levels, how->one_face);
 }
 
-/* Gives a woven material the textures of its cloth. */
-static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftBaking *how, WeftBaked *found) {
+/* Gives a woven material the textures of its cloth, whose errors are kept with the source. */
+static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const WeftBaking *how, BakedSource *source) {
     WeftBaking baking = *how;
     WeftError error;
-    char folder[DELIVER_PATH], name[64];
+    char folder[DELIVER_PATH];
     WeftMaterial material;
     const WeftResult result = weft_scene_material(scene, index, &material, &error);
     if (result != WEFT_OK || !material.cloth) return told(result, &error);
@@ -150,15 +150,14 @@ static int cloth_bake(Delivery *delivery, WeftScene *scene, int index, const Wef
     baking.losses = &delivery->losses;
     baking.progress = delivery_heed;
     baking.user = delivery;
-    baking_name(how, name);
-    snprintf(folder, sizeof folder, "%.3900s/bake-%s-%d", delivery->temporary, name, index);
-    return told(weft_scene_bake(scene, index, &baking, folder, found, &error), &error);
+    snprintf(folder, sizeof folder, "%.3900s/bake-%s-%d", delivery->temporary, source->name, index);
+    return told(weft_scene_bake(scene, index, &baking, folder, &source->materials[index], &error), &error);
 }
 
 /* Returns the place for the errors of a baked source; NULL where memory is short. */
-static BakedSource *source_add(Delivery *delivery, const WeftBaking *how, int materials) {
+static BakedSource *source_add(Delivery *delivery, const WeftBaking *how) {
     BakedSource *source = &delivery->sources[delivery->source_count];
-    source->materials = calloc((size_t)materials + 1, sizeof *source->materials);
+    source->materials = calloc((size_t)delivery->materials + 1, sizeof *source->materials);
     if (!source->materials) return NULL;
     baking_name(how, source->name);
     delivery->source_count++;
@@ -168,14 +167,14 @@ static BakedSource *source_add(Delivery *delivery, const WeftBaking *how, int ma
 int source_bake(Delivery *delivery, TargetFile *file, const WeftBaking *how, WeftScene **out) {
     int result = source_load(delivery, out);
     if (result != 0 || !delivery->woven) return result;
-    const int count = weft_scene_info(*out).material_count;
-    BakedSource *source = source_add(delivery, how, count);
+    const int count = delivery->materials;
+    BakedSource *source = source_add(delivery, how);
     if (!source) return report(WEFT_RESOURCES, "%.300s: %s", delivery->what, weft_message_text(WEFT_MESSAGE_MEMORY));
     file->source = source;
     const double low = delivery->low, high = delivery->high, each = (high - low) / fmax(count, 1.0);
     for (int k = 0; k < count && result == 0; k++) {
         delivery_part(delivery, low + each * k, low + each * (k + 1));
-        result = cloth_bake(delivery, *out, k, how, &source->materials[k]);
+        result = cloth_bake(delivery, *out, k, how, source);
         if (result == 0 && delivery_heed(delivery, 1.0)) result = WEFT_INTERRUPTED;
     }
     delivery_part(delivery, low, high);

@@ -182,9 +182,8 @@ typedef struct Asset {
     size_t buffer_count, view_count, accessor_count, image_count, sampler_count, texture_count, material_count,
         mesh_count, skin_count, camera_count, light_count, node_count;
     bool *material_shown; /* material_count + 1, the last for surfaces without a material */
-    int (*material_sets)
-        [2];          /* material_count + 1: n of the TEXCOORD_n that textures of a material call sets 0 and 1, -1:
-                                none does */
+    /* material_count + 1: n of the TEXCOORD_n that textures of a material call sets 0 and 1, -1: none does */
+    int (*material_sets)[2];
     int *sets;        /* of the material that is read */
     Material **backs; /* of materials from behind, material_count + 1; NULL: it has none of its own */
 } Asset;

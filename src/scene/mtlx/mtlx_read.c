@@ -246,6 +246,15 @@ static void settle_off(MtlxReader *r, InputId weight, InputId color) {
     inputs[weight].value[0] = 1.0f;
 }
 
+static bool has_glass(const MtlxReader *r) {
+    return r->textures[INPUT_transmission] || r->material.inputs[INPUT_transmission].value[0] > 0.0f;
+}
+
+/* Returns true if all light that is not reflected goes through. */
+static bool is_all_glass(const MtlxReader *r) {
+    return !r->textures[INPUT_transmission] && r->material.inputs[INPUT_transmission].value[0] >= 1.0f;
+}
+
 static void drop(MtlxReader *r, InputId id) {
     json_decref(r->textures[id]);
     r->textures[id] = NULL;
@@ -256,7 +265,6 @@ static void drop(MtlxReader *r, InputId id) {
  * of the rest, and stays. */
 static void tint_base(MtlxReader *r) {
     Input *base = &r->material.inputs[INPUT_base_color], *color = &r->material.inputs[INPUT_attenuation_color];
-    const Input *share = &r->material.inputs[INPUT_transmission];
     json_t **mine = &r->textures[INPUT_base_color], *its = r->textures[INPUT_attenuation_color];
     bool same = json_equal(*mine, its) != 0;
     if (!*mine && !its) {
@@ -264,7 +272,7 @@ static void tint_base(MtlxReader *r) {
         for (int c = 0; c < 3; c++) same = same && is_equal(base->value[c], color->value[c]);
     }
     if (same) return;
-    if (!(share->value[0] >= 1.0f) || r->textures[INPUT_transmission]) {
+    if (!is_all_glass(r)) {
         ignore(r, r->shader, "transmission_color: light goes through in base_color, as glTF has it");
         return;
     }
@@ -280,8 +288,7 @@ static void settle_glass(MtlxReader *r) {
     static const float solid_metres = 0.01f; /* the node has no thickness; tracers take that of the mesh */
     Input *inputs = r->material.inputs;
     if (r->has[INPUT_thickness]) return;
-    const bool glass = r->textures[INPUT_transmission] || inputs[INPUT_transmission].value[0] > 0.0f,
-               solid = glass && !r->material.double_sided,
+    const bool glass = has_glass(r), solid = glass && !r->material.double_sided,
                absorbs = solid && inputs[INPUT_attenuation_distance].value[0] > 0.0f;
     r->has[INPUT_thickness] = solid;
     inputs[INPUT_thickness].value[0] = solid_metres;
@@ -291,7 +298,7 @@ static void settle_glass(MtlxReader *r) {
     drop(r, INPUT_attenuation_color);
     if (!absorbs) drop(r, INPUT_attenuation_distance);
     r->has[INPUT_attenuation_color] = absorbs;
-    if (!absorbs || !(inputs[INPUT_transmission].value[0] >= 1.0f) || r->textures[INPUT_transmission]) return;
+    if (!absorbs || !is_all_glass(r)) return;
     for (int c = 0; c < 3; c++) inputs[INPUT_base_color].value[c] = 1.0f;
     drop(r, INPUT_base_color);
     r->has[INPUT_base_color] = true;
@@ -324,7 +331,7 @@ static json_t *material_json(MtlxReader *r) {
     const Material *m = &r->material;
     json_t *root = json_object();
     /* profile openpbr draws no glass */
-    const bool glass = r->textures[INPUT_transmission] || m->inputs[INPUT_transmission].value[0] > 0.0f;
+    const bool glass = has_glass(r);
     put(r, root, glass ? "workflow" : r->node->shader, json_string(glass ? "metallic" : r->node->shader_id));
     for (int k = 0; k < INPUT_COUNT; k++) {
         if (!r->has[k]) continue;
