@@ -164,12 +164,9 @@ static WeftScene *flat_scene(const char *weave, Dir sun) {
     WeftError error;
     const WeftLight light = {.direction = {-sun.x, -sun.y, -sun.z}, .color = {3.0f, 3.0f, 3.0f}};
     const float half = 0.5f * SPAN;
-    static const float uv[8] = {0.0f, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 0.0f};
     test_environment(scene, 0.0f);
     test_material(scene, 0.5f);
-    Mesh *mesh = test_quad(scene, vec3(-half, -half, 0.0f), vec3(SPAN, 0.0f, 0.0f), vec3(0.0f, SPAN, 0.0f));
-    mesh->texcoord[0] = arena_array(&scene->arena, 4, 2 * sizeof(float));
-    memcpy(mesh->texcoord[0], uv, sizeof uv);
+    (void)test_sheet(scene, vec3(-half, -half, 0.0f), vec3(SPAN, 0.0f, 0.0f), vec3(0.0f, SPAN, 0.0f));
     scene->low = vec3(-half, -half, 0.0f);
     scene->high = vec3(half, half, 0.0f);
     assert_int_equal(weft_scene_add_light(scene, &light, &error), WEFT_OK);
@@ -309,12 +306,9 @@ static double floor_below(const char *alpha_mode, int no_shadows) {
     WeftError error;
     char weave[256];
     const WeftLight light = {.direction = {0.0f, 0.0f, -1.0f}, .color = {3.0f, 3.0f, 3.0f}};
-    static const float uv[8] = {0.0f, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 0.0f};
     test_environment(scene, 0.0f);
     test_material(scene, 0.5f);
-    Mesh *mesh = test_quad(scene, vec3(-0.2f, -0.2f, 0.2f), vec3(0.4f, 0.0f, 0.0f), vec3(0.0f, 0.4f, 0.0f));
-    mesh->texcoord[0] = arena_array(&scene->arena, 4, 2 * sizeof(float));
-    memcpy(mesh->texcoord[0], uv, sizeof uv);
+    (void)test_sheet(scene, vec3(-0.2f, -0.2f, 0.2f), vec3(0.4f, 0.0f, 0.0f), vec3(0.0f, 0.4f, 0.0f));
     scene->material_names[0] = "cloth";
     test_material(scene, 0.5f);
     (void)test_quad(scene, vec3(-0.2f, -0.2f, 0.0f), vec3(0.4f, 0.0f, 0.0f), vec3(0.0f, 0.4f, 0.0f));

@@ -60,6 +60,15 @@ static inline Mesh *test_quad(WeftScene *scene, Vec3 a, Vec3 u, Vec3 v) {
     return mesh;
 }
 
+/* Works as test_quad, with texture coordinates: u along u, and v, which runs down, against v. */
+static inline Mesh *test_sheet(WeftScene *scene, Vec3 a, Vec3 u, Vec3 v) {
+    static const float uv[8] = {0.0f, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 0.0f};
+    Mesh *mesh = test_quad(scene, a, u, v);
+    mesh->texcoord[0] = arena_array(&scene->arena, 4, 2 * sizeof(float));
+    memcpy(mesh->texcoord[0], uv, sizeof uv);
+    return mesh;
+}
+
 /* A sphere of the last material, of rings from pole to pole, with smooth normals. */
 static inline Mesh *test_ball(WeftScene *scene, Vec3 centre, float radius, uint32_t rings) {
     const uint32_t sectors = 2 * rings, across = sectors + 1;

@@ -53,13 +53,10 @@ enum { FILES = sizeof files / sizeof *files };
 
 /* A square in the plane y = 0 whose tangent is x and bitangent -z. Its own colour is that of the lobes beside. */
 static WeftScene *square_of(const char *path, float color) {
-    static const float uv[8] = {0.0f, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 0.0f};
     WeftScene *scene = test_scene();
     WeftError error;
     test_material(scene, color);
-    Mesh *mesh = test_quad(scene, vec3(-1, 0, 1), vec3(2, 0, 0), vec3(0, 0, -2));
-    mesh->texcoord[0] = arena_array(&scene->arena, 4, 2 * sizeof(float));
-    memcpy(mesh->texcoord[0], uv, sizeof uv);
+    (void)test_sheet(scene, vec3(-1, 0, 1), vec3(2, 0, 0), vec3(0, 0, -2));
     scene_bounds(scene);
     test_environment(scene, 0.0f);
     if (weft_scene_put_measured(scene, 0, path, &error) != WEFT_OK) fail_msg("%s", error.text);
