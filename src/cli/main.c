@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "cli/console/call_stack.h"
+#include "cli/console/crash.h"
 #include "cli/console/names.h"
 #include "cli/console/report.h"
 #include "cli/console/two_columns.h"
@@ -105,6 +106,7 @@ static int dispatch(int count, char **arguments) {
 }
 
 int main(int count, char **arguments) {
+    crash_begin();
     uncaught_begin();
     signal(SIGXFSZ, SIG_IGN); /* a file beyond its limit is a write that fails, and is reported as one */
     signal(SIGCHLD, SIG_DFL); /* if the parent ignores it, compilers could not be waited for */

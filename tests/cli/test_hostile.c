@@ -119,6 +119,23 @@ static void eval_waiting_for_a_pipe_ends_by_a_signal(void **state) {
     unlink("lines");
 }
 
+/* A fault, such as one in a driver, says where it was. Sanitizers, whose handler stays, say so in their own words. */
+static void a_crash_tells_the_calls_that_led_to_it(void **state) {
+    (void)state;
+    assert_int_equal(mkfifo("lines", 0600), 0);
+    pid_t child = program_start(WEFT_PROGRAM, NULL, LIST("eval", "ggx", "lines"));
+    sleep_seconds(0.1);
+    kill(child, SIGSEGV);
+    Ran ran = program_end(child);
+    const char *line = strstr(ran.err, "weft: crashed; "), *call = line ? strstr(line, "[0x") : NULL;
+    if (strstr(ran.err, "Sanitizer"))
+        assert_int_not_equal(ran.code, 0);
+    else if (ran.code != 128 + SIGSEGV || line != ran.err || !call)
+        fail_msg("%d: %s", ran.code, ran.err);
+    ran_free(&ran);
+    unlink("lines");
+}
+
 static void a_file_beyond_its_limit_is_one_line_and_leaves_nothing(void **state) {
     (void)state;
     Ran ran = run_shell("mkdir limit && cd limit && cp ../scene.gltf . && ulimit -f 8 && "
@@ -211,6 +228,7 @@ int main(void) {
         cmocka_unit_test(cache_file_that_is_a_pipe_is_ignored),
         cmocka_unit_test(damaged_cache_is_a_warning),
         cmocka_unit_test(eval_waiting_for_a_pipe_ends_by_a_signal),
+        cmocka_unit_test(a_crash_tells_the_calls_that_led_to_it),
         cmocka_unit_test(a_file_beyond_its_limit_is_one_line_and_leaves_nothing),
         cmocka_unit_test(a_full_disk_is_told_by_every_writer),
         cmocka_unit_test(a_small_stack_is_enough),
