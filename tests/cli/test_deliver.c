@@ -556,6 +556,17 @@ static void woven_asset_is_baked(void **state) {
     folder_clear("baked");
 }
 
+/* One command line may deliver many sources: an option of cloth alone is told, and does not stop those without. */
+static void a_size_of_cloth_is_told_where_nothing_is_woven(void **state) {
+    (void)state;
+    Ran ran = RUN("deliver", "preset:velvet", "--to", "three,core", "-o", "sized", "--size", "64", "--width", "32",
+                  "--spp", "1");
+    const char *line = strstr(ran.err, "warning: --size is for cloth, and nothing is woven in preset:velvet");
+    if (ran.code != 0 || !line || strstr(line + 1, "warning: ")) fail_msg("%d: %s", ran.code, ran.err);
+    ran_free(&ran);
+    folder_clear("sized");
+}
+
 static void senseless_delivery_is_refused(void **state) {
     (void)state;
     asset_make("\"KHR_materials_pbrSpecularGlossiness\":{\"glossinessFactor\":0.5}");
@@ -640,6 +651,7 @@ int main(void) {
         cmocka_unit_test(materials_share_maps_that_are_equal_at_all_levels),
         cmocka_unit_test(finer_roughness_is_not_resampled),
         cmocka_unit_test(woven_asset_is_baked),
+        cmocka_unit_test(a_size_of_cloth_is_told_where_nothing_is_woven),
         cmocka_unit_test(senseless_delivery_is_refused),
         cmocka_unit_test(interrupted_delivery_leaves_nothing),
     };

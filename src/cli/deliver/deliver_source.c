@@ -129,6 +129,8 @@ int source_load(Delivery *delivery, WeftScene **out) {
     if (result == 0 && kind == SOURCE_MATERIAL) result = material_load(delivery->what, *out, log);
     if (result == 0 && kind == SOURCE_DRAFT) result = draft_load(delivery, *out, log);
     if (result == 0) result = meaning_set(delivery, kind, *out);
+    if (result == 0 && !delivery->woven && !delivery->loaded && option_given(delivery->options, "--size"))
+        report(0, "warning: --size is for cloth, and nothing is woven in %.300s", delivery->what);
     delivery->loaded = true;
     return result;
 }
