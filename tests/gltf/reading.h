@@ -111,6 +111,17 @@ static inline const char *uri(const void *bytes, size_t size) {
     return text;
 }
 
+/* The same, each byte percent-encoded, as RFC 2397 allows. */
+static inline const char *percent_uri(const void *bytes, size_t size) {
+    enum { SIZE = 1 << 12 };
+    static char text[SIZE];
+    const unsigned char *b = bytes;
+    assert_true(3 * size + 64 < SIZE);
+    int at = snprintf(text, SIZE, "data:application/octet-stream,");
+    for (size_t k = 0; k < size; k++) at += snprintf(text + at, SIZE - (size_t)at, k % 2 ? "%%%02x" : "%%%02X", b[k]);
+    return text;
+}
+
 static inline void assert_near(float a, float b, float tolerance) {
     if (!(a - b <= tolerance && b - a <= tolerance)) fail_msg("%g is not %g", (double)a, (double)b);
 }

@@ -617,6 +617,16 @@ static void images_in_views_uris_and_files_are_found(void **state) {
     assert_int_equal(reading->scene->texture_count, 2);
     assert_int_equal(reading->scene->image_count, 1);
     done(reading);
+    /* In a URI that is not in base64; and damaged there. */
+    whole = json("'images':[{'uri':'%s'}],'textures':[{'source':0}],", percent_uri(bytes, sizeof bytes));
+    reading = read_material(whole, MAPPED);
+    free(whole);
+    assert_read(reading);
+    assert_int_equal(reading->scene->image_count, 1);
+    assert_int_equal(reading->scene->images[0].channels, 1);
+    done(reading);
+    assert_unread(read_material("'images':[{'uri':'data:image/png,%89PN%4'}],'textures':[{'source':0}],", MAPPED),
+                  "percent-encoding is damaged at character 5");
     /* One that does not decode is named, where it is needed; else nobody looks. */
     static const char bad[] = "'images':[{'uri':'data:image/png;base64,AAAAAAAA'}],'textures':[{'source':0}],";
     reading = read_material(bad, MAPPED);

@@ -18,13 +18,7 @@ static int base64_digit(char c) {
     return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-unsigned char *uri_decode(const Field *field, const char *uri, size_t *size) {
-    const char *comma = strchr(uri, ','), *marker = comma ? comma - strlen(";base64") : NULL;
-    if (!comma || marker < uri || strncasecmp(marker, ";base64", strlen(";base64")) != 0) {
-        field_fail(field, WEFT_MESSAGE_GLTF_URI, "a data URI must be base64");
-        return NULL;
-    }
-    const char *text = comma + 1;
+static unsigned char *base64_decode(const Field *field, const char *text, size_t *size) {
     size_t length = strlen(text);
     for (int pad = 0; pad < 2 && length && text[length - 1] == '='; pad++) length--;
     unsigned char *bytes = alloc_array(length / 4 * 3 + 3, 1);
@@ -55,6 +49,12 @@ static int hex_digit(char c) {
     return -1;
 }
 
+/* Returns the byte of the two hexadecimal digits that follow a %; -1 where there are none. */
+static int escaped_byte(const char *percent) {
+    int high = hex_digit(percent[1]), low = high < 0 ? -1 : hex_digit(percent[2]);
+    return low < 0 ? -1 : high << 4 | low;
+}
+
 bool uri_unescape(char *text) {
     char *out = text;
     for (const char *in = text; *in; in++) {
@@ -62,13 +62,52 @@ bool uri_unescape(char *text) {
             *out++ = *in;
             continue;
         }
-        int high = hex_digit(in[1]), low = high < 0 ? -1 : hex_digit(in[2]);
-        if (low < 0 || high + low == 0) return false;
-        *out++ = (char)(high << 4 | low);
+        int byte = escaped_byte(in);
+        if (byte <= 0) return false;
+        *out++ = (char)byte;
         in += 2;
     }
     *out = 0;
     return true;
+}
+
+/* Returns true for what stands for itself in the data of a URI: the characters that RFC 2397 names. */
+static bool is_plain(char c) { return base64_digit(c) >= 0 || (c && strchr("-_.!~*'();?:@&=$,", c)); }
+
+static unsigned char *percent_decode(const Field *field, const char *text, size_t *size) {
+    unsigned char *bytes = alloc_array(strlen(text) + 1, 1);
+    if (!bytes) {
+        asset_fail(field->asset, WEFT_MESSAGE_MEMORY, NULL);
+        return NULL;
+    }
+    size_t count = 0;
+    for (const char *in = text; *in; in++) {
+        int byte = *in == '%' ? escaped_byte(in) : is_plain(*in) ? *in : -1;
+        if (byte < 0) {
+            field_fail(field, WEFT_MESSAGE_GLTF_URI,
+                       *in == '%' ? "its percent-encoding is damaged at character %zu"
+                                  : "its character %zu must be percent-encoded",
+                       (size_t)(in - text));
+            free(bytes);
+            return NULL;
+        }
+        if (*in == '%') in += 2;
+        bytes[count++] = (unsigned char)byte;
+    }
+    *size = count;
+    return bytes;
+}
+
+unsigned char *uri_decode(const Field *field, const char *uri, size_t *size) {
+    static const char base64[] = ";base64";
+    const char *comma = strchr(uri, ',');
+    if (!comma) {
+        field_fail(field, WEFT_MESSAGE_GLTF_URI, "a data URI needs a comma before its data");
+        return NULL;
+    }
+    const char *marker = comma - strlen(base64);
+    const bool encoded = marker >= uri && strncasecmp(marker, base64, strlen(base64)) == 0;
+    return encoded ? base64_decode(field, comma + 1, size) : percent_decode(field, comma + 1, size);
 }
 
 static bool has_scheme(const char *uri) {

@@ -1,9 +1,9 @@
 /* uri.h - URIs of buffers and images: data in the URI itself, or a file beside the asset
  *
- * Accepted: "data:...;base64,..." and relative references with percent-encoding whose file lies in the asset's folder
- * or below it, or in that of weft_root_use. Refused with GLTF_URI: every other scheme, absolute paths, `..` and links that
- * lead out, names with a zero byte, and all files where the asset itself came from memory. Backslashes are taken as
- * slashes, with a warning. */
+ * Accepted: "data:...;base64,...", "data:...,..." with percent-encoding, and relative references with percent-encoding
+ * whose file lies in the asset's folder or below it, or in that of weft_root_use. Refused with GLTF_URI: every other scheme,
+ * absolute paths, `..` and links that lead out, names with a zero byte, and all files where the asset itself came from
+ * memory. Backslashes are taken as slashes, with a warning. */
 #pragma once
 
 #include "gltf/asset/field.h"

@@ -10,6 +10,7 @@
 #include "base/fail.h"
 #include "base/path.h"
 #include "base/printable.h"
+#include "gltf/asset/uri.h"
 #include "gltf/read/gltf.h"
 #include "gltf/save/rewrite.h"
 
@@ -45,7 +46,7 @@ static void name_subject(const WeftDoctor *doctor, WeftFinding *finding) {
     json_t *item = doctor_item(doctor, list_name(finding->of), finding->index);
     const char *name = json_string_value(json_object_get(item, "name"));
     const char *uri = json_string_value(json_object_get(item, "uri"));
-    if (!name && uri && strncmp(uri, "data:", 5) != 0) name = uri;
+    if (!name && uri && !uri_is_data(uri)) name = uri;
     if (finding->of == WEFT_OF_ASSET)
         snprintf(finding->subject, sizeof finding->subject, "asset");
     else if (name && name[0])
