@@ -129,8 +129,9 @@ WEFT_API void weft_material_choose(WeftMaterial *material, int choice, int value
 /* Warns of implausible inputs, as weft_scene_set does; messages begin with name. */
 WEFT_API void weft_material_plausible(const WeftMaterial *material, const char *name, const WeftLog *log);
 
-/* Warns where the lobe of the sheen replaces a parameter outside its fitted range, as weft_lobe_fitted does; a
- * texture counts as reaching down to 0. weft_material_plausible warns of this too. */
+/* Warns where a material is not shown as its inputs say: where the lobe of the sheen replaces a parameter outside its
+ * fitted range, as weft_lobe_fitted does (a texture counts as reaching down to 0), and where its profile or workflow
+ * shows glass, of input transmission, as opaque. weft_material_plausible warns of these too. */
 WEFT_API void weft_material_fitted(const WeftMaterial *material, const char *name, const WeftLog *log);
 
 /* Returns 1 if the input has any influence on the material, else 0: its workflow or profile must read it, and

@@ -273,8 +273,11 @@ static void glass_keeps_its_color(void **state) {
         if (fabs(red - 0.5) > 1e-5 || fabs(green - 0.1) > 1e-5) fail_msg("%s: %g %g", targets[k], red, green);
         assert_int_equal(part(material, "KHR_materials_transmission") != NULL, k < 3);
         const json_t *target = target_of(summary, targets[k]), *lost = json_object_get(target, "lost");
-        if (tells(lost, "as if it were opaque") != (k > 0)) fail_msg("%s: %s", targets[k], json_dumps(lost, 0));
-        assert_true(number(json_array_get(json_object_get(target, "materials"), 0), "matched") < 0.3);
+        if (tells(lost, "as if it were opaque") != (k == 3)) fail_msg("%s: %s", targets[k], json_dumps(lost, 0));
+        /* what glass reflects is its highlight alone, which is round in Filament where this one is stretched */
+        const json_t *satin = json_array_get(json_object_get(target, "materials"), 0);
+        const double matched = number(satin, "matched"), copied = number(satin, "copied");
+        if (!(matched < (k == 2 ? 0.7 * copied : 0.3))) fail_msg("%s: %g, %g copied", targets[k], matched, copied);
         json_decref(root);
     }
     json_decref(summary);

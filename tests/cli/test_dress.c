@@ -209,6 +209,18 @@ static void choice_without_effect_is_a_warning(void **state) {
     warns(LIST("--set=*.sheen_d=inverse-ggx", "--set=*.sheen_v=implicit"), NULL);
 }
 
+/* Glass that a profile draws as an opaque base: the picture says so, once for each such profile. */
+static void glass_left_out_is_a_warning(void **state) {
+    (void)state;
+    static const char line[] = "weft: warning: material cloth: has a part that is ignored: its transmission: profile "
+                               "unreal4 shows no glass";
+    warns(LIST("--profile=unreal4", "--set=*.transmission=0.5", "--set=*.metallic=0"), line);
+    warns(LIST("--set=*.metallic=0", "--set=*.transmission=0.5", "--profile=unreal4", "--engine=raster"), line);
+    warns(LIST("--profile=khronos,unreal4", "--set=*.transmission=0.5", "--set=*.metallic=0"), line);
+    warns(LIST("--profile=unreal4"), NULL);
+    warns(LIST("--profile=khronos,three,babylon", "--set=*.transmission=0.5", "--set=*.metallic=0"), NULL);
+}
+
 /* A metal by three settings is none after the first. */
 static void plausibility_is_judged_after_all_settings(void **state) {
     (void)state;
@@ -414,6 +426,7 @@ int main(void) {
         cmocka_unit_test(every_axis_makes_a_sheet),
         cmocka_unit_test(blanks_around_an_id_are_ignored),
         cmocka_unit_test(choice_without_effect_is_a_warning),
+        cmocka_unit_test(glass_left_out_is_a_warning),
         cmocka_unit_test(plausibility_is_judged_after_all_settings),
     };
     return cmocka_run_group_tests(tests, begin, work_end);

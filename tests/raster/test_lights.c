@@ -275,6 +275,32 @@ static void sky_behind_shines_through_glass(void **state) {
     }
 }
 
+/* A pane that absorbs half of the light, by every profile: those that draw glass show half the sky through it, and an opaque
+ * one is the brighter for it. */
+static void sky_behind_shines_through_glass_of_engines(void **state) {
+    (void)state;
+    need_gl();
+    static const char *const drawing[] = {"none",           "khronos", "khr-fuzz",
+                                          "khr-fuzz-exact", "openpbr", "babylon-openpbr",
+                                          "three",          "babylon", "filament-sheen"};
+    for (int profile = 0; weft_profile_name(profile); profile++) {
+        bool glass = false;
+        for (size_t k = 0; k < sizeof drawing / sizeof *drawing; k++)
+            glass |= strcmp(weft_profile_name(profile), drawing[k]) == 0;
+        WeftScene *scene = test_scene();
+        Material *sheet = test_material(scene, 0.8f);
+        weft_material_choose(sheet, CHOICE_profile, profile);
+        sheet->inputs[INPUT_transmission].value[0] = 1.0f;
+        sheet->inputs[INPUT_roughness].value[0] = 0.3f;
+        sheet->inputs[INPUT_thickness].value[0] = 0.2f;
+        sheet->inputs[INPUT_attenuation_distance].value[0] = 0.2f;
+        test_color(sheet, INPUT_attenuation_color, 0.5f);
+        const float middle = middle_before_sky(scene);
+        if (glass != (fabsf(middle - 0.4f) < 0.01f) || (!glass && middle < 0.6f))
+            fail_msg("%s: %g", weft_profile_name(profile), (double)middle);
+    }
+}
+
 static void put(WeftScene *scene, int index, float x, int corners) {
     WeftLight light = panel;
     light.position[0] = x;
@@ -341,6 +367,7 @@ int main(void) {
                                        cmocka_unit_test(polygon_behind_shines_through_cloth),
                                        cmocka_unit_test(sky_behind_shines_through_cloth),
                                        cmocka_unit_test(sky_behind_shines_through_glass),
+                                       cmocka_unit_test(sky_behind_shines_through_glass_of_engines),
                                        cmocka_unit_test(updated_lights_draw_as_new_ones)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

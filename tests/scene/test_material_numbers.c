@@ -347,6 +347,53 @@ static void sharp_leaning_fibres_are_a_warning(void **state) {
     assert_int_equal(told, 2);
 }
 
+typedef struct Told {
+    int count;
+    char text[256];
+} Told;
+
+static void tell(void *user, WeftMessage message, const char *text) {
+    Told *told = user;
+    (void)message;
+    told->count++;
+    snprintf(told->text, sizeof told->text, "%s", text);
+}
+
+/* A material with transmission is opaque by profiles and workflows that have none, and each says so: once, and not of
+ * metal, which lets nothing through. */
+static void glass_that_is_not_shown_is_a_warning(void **state) {
+    (void)state;
+    static const char *const silent[] = {"profile none",      "profile khronos",        "profile three",
+                                         "profile babylon",   "profile filament-sheen", "profile khr-fuzz",
+                                         "profile openpbr",   "profile khr-fuzz-exact", "profile babylon-openpbr",
+                                         "workflow metallic", "workflow specular"};
+    int shown = 0, hidden = 0;
+    for (int choice = 0; choice < 2; choice++) {
+        const char *name = choice ? "workflow" : "profile";
+        for (int k = 0; weft_material_choice_value(weft_material_choice_find(name), k); k++) {
+            char words[96];
+            snprintf(words, sizeof words, "%s %s", name,
+                     weft_material_choice_value(weft_material_choice_find(name), k));
+            bool quiet = false;
+            for (size_t j = 0; j < sizeof silent / sizeof *silent; j++) quiet |= strcmp(words, silent[j]) == 0;
+            Told told = {0}, of_metal = {0}, without = {0};
+            WeftMaterial m = plain();
+            weft_material_choose(&m, weft_material_choice_find(name), k);
+            weft_material_fitted(&m, "pane", &(WeftLog){tell, &without});
+            set_value(&m, "transmission", 0.7f);
+            weft_material_fitted(&m, "pane", &(WeftLog){tell, &told});
+            set_value(&m, "metallic", 1.0f);
+            weft_material_fitted(&m, "pane", &(WeftLog){tell, &of_metal});
+            if (told.count != !quiet || (!quiet && !strstr(told.text, words))) fail_msg("%s: \"%s\"", words, told.text);
+            assert_int_equal(without.count, 0);
+            assert_int_equal(of_metal.count, 0);
+            *(quiet ? &shown : &hidden) += 1;
+        }
+    }
+    assert_int_equal(shown, sizeof silent / sizeof *silent);
+    assert_int_equal(hidden, 14);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(input_infos_are_those_of_the_table),
@@ -358,6 +405,7 @@ int main(void) {
         cmocka_unit_test(profile_reads_only_its_inputs),
         cmocka_unit_test(query_of_read_inputs_takes_microseconds),
         cmocka_unit_test(sharp_leaning_fibres_are_a_warning),
+        cmocka_unit_test(glass_that_is_not_shown_is_a_warning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

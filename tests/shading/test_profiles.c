@@ -122,12 +122,14 @@ static void materialx_ab(double x, double y, double ab[2]) {
 typedef struct Given {
     Color base, sheen, f0, mixed; /* f0: dielectric; mixed: with the metal */
     double metal, r, rs, weight;
+    double left; /* what glass leaves of the diffuse lobe */
 } Given;
 
 static Given given_of(const Surface *s) {
     Given g = {.base = color_of(s->base_color), .metal = (double)s->metallic, .r = (double)s->roughness};
     g.sheen = times(color_of(s->sheen_color), (double)s->sheen);
     g.rs = (double)s->sheen_roughness, g.weight = (double)s->specular;
+    g.left = 1.0 - (double)s->transmission;
     double f = sq(((double)s->ior - 1.0) / ((double)s->ior + 1.0));
     for (int k = 0; k < 3; k++) g.f0.c[k] = fmin(f * color_of(s->specular_color).c[k], 1.0) * g.weight;
     g.mixed = blend(g.f0, g.base, g.metal);
@@ -148,7 +150,7 @@ static Color engine_khronos(const Surface *s, Pair p) {
     Color f;
     for (int k = 0; k < 3; k++) {
         double fd = lerp(g.f0.c[k], g.weight, fc), fm = lerp(g.base.c[k], 1.0, fc);
-        double dielectric = lerp(g.base.c[k] / PI_DOUBLE, dv, fd);
+        double dielectric = lerp(g.left * g.base.c[k] / PI_DOUBLE, dv, fd);
         f.c[k] = g.sheen.c[k] * sheen + fmax(keep, 0.0) * lerp(dielectric, dv * fm, g.metal);
         f.c[k] = lerp(f.c[k], ggx(ac, p.nh) * smith(ac, p), coat);
     }
@@ -167,7 +169,7 @@ static Color engine_three(const Surface *s, Pair p) {
     Color f;
     for (int k = 0; k < 3; k++) {
         double specular = lerp(g.mixed.c[k], f90, w) * dv * (1.0 + g.mixed.c[k] * (1.0 / ess - 1.0));
-        double diffuse = g.base.c[k] * (1.0 - g.metal) / PI_DOUBLE * (1.0 - lerp(g.f0.c[k], f90, w));
+        double diffuse = g.left * g.base.c[k] * (1.0 - g.metal) / PI_DOUBLE * (1.0 - lerp(g.f0.c[k], f90, w));
         f.c[k] = g.sheen.c[k] * sheen + fmax(keep, 0.0) * (specular + diffuse);
         f.c[k] = f.c[k] * (1.0 - cc * lerp(0.04, 1.0, gaussian(p.v))) + cc * coat;
     }
@@ -185,7 +187,7 @@ static Color engine_filament(const Surface *s, Pair p) {
     for (int k = 0; k < 3; k++) {
         double specular = k_d * k_d / PI_DOUBLE * smith(a, p) * lerp(g.mixed.c[k], f90, fc);
         specular *= 1.0 + g.mixed.c[k] * (1.0 / ess - 1.0);
-        f.c[k] = keep * (g.base.c[k] * (1.0 - g.metal) / PI_DOUBLE + specular) + g.sheen.c[k] * sheen;
+        f.c[k] = keep * (g.left * g.base.c[k] * (1.0 - g.metal) / PI_DOUBLE + specular) + g.sheen.c[k] * sheen;
     }
     return f;
 }
@@ -205,7 +207,7 @@ static Color engine_babylon(const Surface *s, Pair p) {
     double keep = fmax(1.0 - max3(g.sheen) * read_table(ENGINE_BABYLON_SHEEN, p.v, g.rs), 0.0);
     Color f;
     for (int k = 0; k < 3; k++) {
-        double diffuse = g.base.c[k] * (1.0 - g.f0.c[k]) * (1.0 - g.metal) / PI_DOUBLE;
+        double diffuse = g.left * g.base.c[k] * (1.0 - g.f0.c[k]) * (1.0 - g.metal) / PI_DOUBLE;
         double specular = ggx(a, p.nh) * smith(a, p) * lerp(g.mixed.c[k], g.weight, fc);
         specular *= 1.0 + g.mixed.c[k] * (1.0 / ess - 1.0);
         f.c[k] = keep * (diffuse + specular) + g.sheen.c[k] * charlie(as, p.s2) * neubelt(p);
@@ -349,7 +351,8 @@ static Color engine_openpbr(const Surface *s, Pair p) {
     double ac = sq((double)s->clearcoat_roughness), coat = (double)s->clearcoat * lerp(0.04, 1.0, schlick(p.v));
     Color f, tint = color_of(s->specular_color), fuzz = color_of(s->sheen_color);
     for (int k = 0; k < 3; k++) {
-        double dielectric = g.base.c[k] / PI_DOUBLE * (1.0 - lerp(f0, 1.0, least)) + dv * tint.c[k] * lerp(f0, 1.0, fc);
+        double dielectric =
+            g.left * g.base.c[k] / PI_DOUBLE * (1.0 - lerp(f0, 1.0, least)) + dv * tint.c[k] * lerp(f0, 1.0, fc);
         double metal = dv * strength * lerp(g.base.c[k], 1.0, fc);
         double below = lerp(lerp(dielectric, metal, g.metal), ggx(ac, p.nh) * smith(ac, p), coat);
         f.c[k] = weight * fuzz.c[k] * openpbr_fuzz[0] + (1.0 - weight * openpbr_fuzz[1]) * below;
@@ -388,7 +391,7 @@ static Color engine_khr_fuzz(const Surface *s, Pair p) {
     Color f, fuzz = color_of(s->sheen_color);
     for (int k = 0; k < 3; k++) {
         double fd = lerp(g.f0.c[k], g.weight, fc), fm = lerp(g.base.c[k], 1.0, fc);
-        double dielectric = lerp(g.base.c[k] / PI_DOUBLE, dv, fd);
+        double dielectric = lerp(g.left * g.base.c[k] / PI_DOUBLE, dv, fd);
         f.c[k] = (1.0 - weight * khr_fuzz[1]) * lerp(dielectric, dv * fm, g.metal) + weight * fuzz.c[k] * khr_fuzz[0];
         f.c[k] = lerp(f.c[k], ggx(ac, p.nh) * smith(ac, p), coat);
     }
@@ -421,7 +424,8 @@ static Color engine_babylon_openpbr(const Surface *s, Pair p) {
     const double ac = sq((double)s->clearcoat_roughness), coat = (double)s->clearcoat * lerp(0.04, 1.0, schlick(p.v));
     Color f, tint = color_of(s->specular_color), color = color_of(s->sheen_color);
     for (int k = 0; k < 3; k++) {
-        double dielectric = g.base.c[k] / PI_DOUBLE * (1.0 - lerp(f0, 1.0, fc)) + dv * tint.c[k] * lerp(f0, 1.0, fc);
+        double dielectric =
+            g.left * g.base.c[k] / PI_DOUBLE * (1.0 - lerp(f0, 1.0, fc)) + dv * tint.c[k] * lerp(f0, 1.0, fc);
         double metal = dv * strength * lerp(g.base.c[k], 1.0, fc);
         double below = lerp(lerp(dielectric, metal, g.metal), ggx(ac, p.nh) * smith(ac, p), coat);
         f.c[k] = lerp(below, color.c[k] * fuzz, weight);
@@ -478,6 +482,7 @@ static Surface any_surface(Random *random) {
     s.sheen = random_unit(random);
     s.sheen_tint = random_unit(random), s.specular_tint = random_unit(random);
     s.subsurface = random_unit(random), s.clearcoat_gloss = 0.8f * random_unit(random);
+    if (random_unit(random) < 0.5f) s.transmission = random_unit(random);
     return s;
 }
 

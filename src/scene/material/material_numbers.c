@@ -141,14 +141,27 @@ static void check_fitted(const Material *material, const char *name, const WeftL
     if (HAS_LAYERED_SHEEN(&stack)) lobe_fitted(&stack.sheen.lobe, name, log);
 }
 
+/* Warns of glass that the profile or workflow of a material shows as opaque. */
+static void check_glass(const Material *material, const char *name, const WeftLog *log) {
+    const ChoiceId by = material->choices[CHOICE_profile] > 0 ? CHOICE_profile : CHOICE_workflow;
+    Material plain = *material;
+    plain.choices[CHOICE_profile] = plain.choices[CHOICE_workflow] = CHOICE_AUTO;
+    if (material->choices[by] < 0 || material->unlit) return;
+    if (material_has_glass(&plain) && !material_has_glass(material))
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name, "its transmission: %s %s shows no glass",
+             weft_material_choice_name(by), choice_id(by, material->choices[by]));
+}
+
 void weft_material_fitted(const WeftMaterial *numbers, const char *name, const WeftLog *log) {
     const Material material = material_sound(numbers);
     check_fitted(&material, name, log);
+    check_glass(&material, name, log);
 }
 
 void weft_material_plausible(const WeftMaterial *numbers, const char *name, const WeftLog *log) {
     Material material = material_sound(numbers);
     check_fitted(&material, name, log);
+    check_glass(&material, name, log);
     plausible_check_all(&material, name, log);
     for (int k = 0; k < INPUT_COUNT; k++) {
         const WeftInputInfo *info = &input_infos[k];

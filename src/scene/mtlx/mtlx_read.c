@@ -330,9 +330,7 @@ static json_t *material_json(MtlxReader *r) {
     static const char *const modes[] = {"opaque", "mask", "blend"}; /* as WeftAlphaMode */
     const Material *m = &r->material;
     json_t *root = json_object();
-    /* profile openpbr draws no glass */
-    const bool glass = has_glass(r);
-    put(r, root, glass ? "workflow" : r->node->shader, json_string(glass ? "metallic" : r->node->shader_id));
+    put(r, root, r->node->shader, json_string(r->node->shader_id));
     for (int k = 0; k < INPUT_COUNT; k++) {
         if (!r->has[k]) continue;
         if (r->textures[k])

@@ -13,7 +13,8 @@
  * Level half of specular. Files written for viewers square the roughness: alpha there is sheen_roughness^2.
  *   Departures: sheen_roughness is at least 0.05 (there 0.001); the texels of the table are weft's own. The highlight is
  * one bounce of ggx in Schlick's F, there all bounces in the F of the ior; F_min dims the diffuse lobe, there the albedo
- * of the highlight. F90 is specular. The coat lies above the fuzz, and takes no tint; anisotropy is glTF's. */
+ * of the highlight. F90 is specular. Glass is left out, whose light bounces often between facets there.
+ * The coat lies above the fuzz, and takes no tint; anisotropy is glTF's. */
 #pragma once
 
 #include "shading/workflows/metallic.h"

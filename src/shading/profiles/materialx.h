@@ -15,7 +15,7 @@
  * standard_surface does not square the roughness and puts the sheen below the highlight.
  *   F enters squared, so f is a + b s + c s^2: SlotColors.f_quadratic has the last.
  *   IBL there: diffuse irradiance times c E, the rest alike.
- *   Inputs: F0 as in workflow metallic, F90 = specular; clear coat and anisotropy are not looked at.
+ *   Inputs: F0 as in workflow metallic, F90 = specular; clear coat, anisotropy and transmission are not looked at.
  *   Departures: alpha of ggx is at least 0.001; A + B at least 1e-3. */
 #pragma once
 

@@ -7,17 +7,21 @@
  *   keep   = 1 - max3(c) max(E(cos_o), E(cos_i)),  E by three_albedo
  *   alpha  = max(roughness, 0.045)^2, of base and coat
  *   Ess    = E of white ggx towards wo, from a table of 16 x 16
+ *   glass  : of transmission t, 1 - t of the diffuse lobe stays, and t (1 - metallic) base_color (1 - F) comes
+ *            through the facets of the highlight (stack.h)
  *
  *   npm package three 0.187.0, src/renderers/shaders/ShaderChunk: lights_physical_pars_fragment,
- * lights_physical_fragment, lights_fragment_begin, common; ShaderLib/meshphysical; repository
- * mrdoob/three.js. Earlier releases dim the base by 0.157 max3(c) or have another E, and leave the diffuse
- * lobe whole.
+ * lights_physical_fragment, lights_fragment_begin, common, transmission_fragment, transmission_pars_fragment;
+ * ShaderLib/meshphysical; repository mrdoob/three.js. Earlier releases dim the base by 0.157 max3(c) or have another
+ * E, and leave the diffuse lobe whole.
  *   E is far from the sheen's own at low roughness, so grazing light is returned more than once over: at
  * roughness 0.1 and cos_o 0.02 the lobe has E 1.54, the formula gives .27.
  *   IBL there differs: the sheen is diffuse irradiance times c E(cos_o), keep looks at cos_o alone, the
- * base has Fdez-Aguera's scattering; lights of an area have no sheen.
+ * base has Fdez-Aguera's scattering; lights of an area have no sheen. Glass shows a blurred picture of what is opaque
+ * behind it, times 1 - E of the highlight, which is what the facets here let through of an even light.
  *   Departures: nothing is added to roughness where the normal changes from pixel to pixel; alpha of the
- * sheen is at least 0.005 (there 1e-8).
+ * sheen is at least 0.005 (there 1e-8). The sheen dims what comes through glass, there it does not; F of a base between
+ * glass and metal is that of glass for this light, there the mean of both; an ior below 1.5 blurs it no less.
  *   Substitute: Ess is made anew by the procedure that the table states. The shipped texels at cos_o
  * 1/32 are up to .015 less, all others within .009 (ten of them in tests/shading/test_profiles). F0 without
  * an ior is weft's. */
@@ -81,4 +85,5 @@ FN void three_stack(Stack *m, const Surface *s) {
     workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), mixed, f90);
     m->specular.lobe = three_ggx(s->roughness, s->anisotropy);
     filament_compensate(m, mixed, VIEW_THREE, r);
+    workflow_glass(m, s, 1.0f - s->metallic);
 }

@@ -75,15 +75,15 @@ FN Rgb glass_left(const Surface *s, float path) {
 }
 
 /* Lets light through as glass does, in the base colour; weight: of what is below the interface, as the diffuse lobe has it
- * already. Called after workflow_base. Thick glass is here a thin sheet that absorbs as much as its thickness does. Khronos Group,
- * KHR_materials_transmission, 2021. */
+ * already. Called once the highlight is set. Thick glass is here a thin sheet that absorbs as much as its thickness
+ * does. Khronos Group, KHR_materials_transmission, 2021. */
 FN void workflow_glass(Stack *m, const Surface *s, float weight) {
     if (s->transmission <= 0.0f) return;
     float share = s->transmission * weight;
     m->glass = share;
     m->glass_taken = s->transmission;
     m->glass_tint = rgb_scale(rgb_mul(s->base_color, glass_left(s, s->thickness)), share);
-    m->glass_lost = m->specular.lobe.params[GGX_ALPHA];
+    m->glass_lost = m->specular.lobe.params[0]; /* alpha of ggx, or of cook-torrance */
     m->transmitted = rgb_scale(m->transmitted, 1.0f - s->transmission);
     m->specular.normal = max(m->specular.normal, 1e-30f); /* glass takes its lobe even where it is black */
 }
