@@ -69,7 +69,7 @@ static void hit_packet(const Geometry *geometry, int count, const Ray *rays, Hit
     bool hidden[GEOMETRY_PACKET];
     const RayRows rows = {{o[0], o[1], o[2]}, {d[0], d[1], d[2]}, far, key, false, false};
     geometry_hits(geometry, &rows, count, &(HitRows){t, u, v, mesh, triangle});
-    geometry_occlusions(geometry, &rows, count, hidden);
+    geometry_occlusions(geometry, &rows, count, hidden, NULL);
     for (int k = 0; k < count; k++) {
         bool any = mesh[k] != GEOMETRY_NOTHING;
         hits[k] = (Hit){.t = any ? t[k] : -1.0f, .mesh = mesh[k], .triangle = triangle[k], .u = u[k], .v = v[k]};

@@ -10,6 +10,7 @@
 #include "base/fail.h"
 #include "base/matrix.h"
 #include "base/thread.h"
+#include "scene/light/pane.h"
 #include "shading/dialect/warp.h"
 #include "shading/stack/frame.h"
 #include "trace/geometry/geometry.h"
@@ -160,7 +161,7 @@ static void trace_rays(const Occlusion *self, Vec3 from, const Dir *ways, int co
         d[0][k] = ways[k].x, d[1][k] = ways[k].y, d[2][k] = ways[k].z;
         key[k] = vertex;
     }
-    geometry_occlusions(self->geometry, &rays, count, hidden);
+    geometry_occlusions(self->geometry, &rays, count, hidden, NULL);
 }
 
 /* Returns the fraction of the cosine-weighted sky above n that a point sees, and sets the ramp of its visibility. */
@@ -277,11 +278,13 @@ static void search_block(void *user, int item, int thread) {
     }
 }
 
-/* Returns true if all materials are opaque. What others hide depends on their textures, which are too large to hash. */
+/* Returns true if all materials are opaque and none a pane. What others hide depends on their textures, which are too
+ * large to hash. */
 static bool is_opaque(const WeftScene *scene) {
     bool opaque = true;
     for (int m = 0; m < scene_own_meshes(scene); m++)
-        opaque &= scene->materials[scene->meshes[m].material].alpha_mode == WEFT_ALPHA_OPAQUE;
+        opaque &= scene->materials[scene->meshes[m].material].alpha_mode == WEFT_ALPHA_OPAQUE &&
+                  !scene_is_pane(scene, scene->meshes[m].material);
     return opaque;
 }
 

@@ -69,7 +69,7 @@ vec3 bounced(Ray r, RayHit hit, uint key, uint index) {
     bool of_sky = kind == BY_SKY || (by_cosine && end.triangle < 0);
     float density = by_cosine ? met.pdf : light.pdf;
     density += kind == BY_LIGHT ? 0.0 : cosine / SKY_PI;
-    vec3 radiance = (by_cosine ? met.radiance : light.radiance) * (of_sky ? sky_parts.x : 1.0);
+    vec3 radiance = (by_cosine ? met.radiance : light.radiance) * end.through * (of_sky ? sky_parts.x : 1.0);
     vec3 back = at.albedo * radiance * (cosine / SKY_PI * float(kinds) / max(density, 1e-30));
     return arrives ? back : vec3(0.0);
 }

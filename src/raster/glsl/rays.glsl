@@ -4,6 +4,7 @@
  * Graphics Tools 2(1), 1997. */
 #include "raster/glsl/picture.glsl"
 #include "shading/dialect/points.h"
+#include "shading/terms/f_schlick.h"
 
 uniform highp sampler2D ray_texels;
 uniform highp sampler2DArray ray_masks; /* raster/light/ray_masks.h */
@@ -20,6 +21,7 @@ struct RayHit {
     float t;      /* distance */
     int triangle; /* below 0: none */
     float u, v;   /* weights of the second and third corner */
+    vec3 through; /* what panes before it let through */
 };
 
 /* The corners of a triangle, and the last numbers of its texels. */
@@ -42,7 +44,7 @@ RayHit ray_meet(Ray r, RayTriangle p) {
     float det = dot(ab, h), inverse = 1.0 / (det == 0.0 ? 1.0 : det);
     float u = dot(s, h) * inverse, v = dot(r.direction, q) * inverse, t = dot(ac, q) * inverse;
     bool beside = det == 0.0 || u < 0.0 || v < 0.0 || u + v > 1.0;
-    return RayHit(beside ? -1.0 : t, -1, u, v);
+    return RayHit(beside ? -1.0 : t, -1, u, v, vec3(1.0));
 }
 
 /* Wraps a coordinate: 0 repeats, 1 mirrors, 2 clamps. The last two end half a texel from the edges, past which the array
@@ -75,14 +77,24 @@ bool ray_counts(Ray r, RayTriangle p, RayHit hit, int triangle, uint key) {
     return opacity >= 1.0 || point_fraction(point_hash_two(key, uint(triangle))) < opacity;
 }
 
-/* Returns the nearest hit, or if `any` the first one that is found. near_to: the distance to which hits are to be near,
- * or 0; all triangles count if it is more. */
+/* Returns what a pane lets through along a ray (raster/light/ray_panes.h). */
+vec3 ray_pane(Ray r, RayTriangle p) {
+    int at = int(-p.emitter);
+    vec3 n = cross(p.b - p.a, p.c - p.a);
+    float cosine = abs(dot(n, r.direction)) * inversesqrt(max(dot(n, n), 1e-30));
+    return mix(ray_texel(at).rgb, ray_texel(at + 1).rgb, schlick_s(cosine));
+}
+
+/* Returns the nearest hit, or if `any` the first one that is found. Rays pass panes; those before the nearest hit are
+ * found in a second walk, if there are any. near_to: the distance to which hits are to be near, or 0; all triangles count
+ * if it is more. */
 RayHit ray_trace(Ray r, bool any, float near_to, uint key) {
     vec3 safe = mix(r.direction, vec3(1e-20), lessThan(abs(r.direction), vec3(1e-20)));
     vec3 inverse = 1.0 / safe;
     int node = 0, count = int(ray_first.x);
-    RayHit found = RayHit(r.far, -1, 0.0, 0.0);
+    RayHit found = RayHit(r.far, -1, 0.0, 0.0, vec3(1.0));
     float near = r.near, far = r.far;
+    bool panes = false, again = any;
     while (node < count) {
         vec4 low = ray_texel(2 * node), high = ray_texel(2 * node + 1);
         vec3 x = (low.xyz - r.origin) * inverse, y = (high.xyz - r.origin) * inverse;
@@ -97,13 +109,20 @@ RayHit ray_trace(Ray r, bool any, float near_to, uint key) {
             RayHit hit = ray_meet(r, p);
             if (hit.t < near || hit.t > far) continue;
             if (near_to == 0.0 && !ray_counts(r, p, hit, k, key)) continue;
-            found = RayHit(hit.t, k, hit.u, hit.v);
+            bool pane = p.emitter < -0.5 && near_to == 0.0;
+            panes = panes || pane;
+            if (pane && again) found.through *= ray_pane(r, p);
+            if (pane || (again && !any)) continue;
+            found = RayHit(hit.t, k, hit.u, hit.v, found.through);
             float off = abs(hit.t - near_to);
             far = near_to > 0.0 ? near_to + off : hit.t;
             near = near_to > 0.0 ? near_to - off : near;
         }
         node = inside || leaf ? node + 1 : int(low.w);
         if (any && found.triangle >= 0) node = count;
+        bool repeats = node >= count && panes && !again;
+        again = again || repeats;
+        node = repeats ? 0 : node;
     }
     return found;
 }

@@ -74,7 +74,7 @@ vec3 lift(RayTriangle t, RayHit hit, vec3 p, float side) {
 void find_place(vec3 wo, inout Facing at, inout Place place) {
     vec3 here = eye.xyz + from_eye;
     float reach = 1e-3 * max(length(from_eye), 1e-6);
-    RayHit hit = RayHit(0.0, -1, 0.0, 0.0);
+    RayHit hit = RayHit(0.0, -1, 0.0, 0.0, vec3(1.0));
     if (!FINER_THAN_RAYS) hit = ray_trace(Ray(here + reach * wo, -wo, 0.0, 2.0 * reach), false, reach, 0u);
     vec3 geometric = cross(dFdx(from_eye), dFdy(from_eye));
     RayTriangle t = ray_triangle(max(hit.triangle, 0));
@@ -236,7 +236,7 @@ vec3 direct_light(Stack m, StackView w, Frame f, Place place) {
 #ifdef BOUNCES
     vec3 through = vec3(0.0);
     Ray last = Ray(place.origin, place.horizon, 0.0, -1.0);
-    RayHit met = RayHit(0.0, -1, 0.0, 0.0);
+    RayHit met = RayHit(0.0, -1, 0.0, 0.0, vec3(1.0));
 #endif
     for (int kind = kind_from(0); kind < KINDS; kind = kind_from(kind + 1)) {
         Point at = sampler_point(key, index, PAIR_VERTEX + uint(kind));
@@ -262,12 +262,13 @@ vec3 direct_light(Stack m, StackView w, Frame f, Place place) {
         RayHit hit = ray_trace(r, kind != BY_LOBE, 0.0, kind == BY_LOBE ? point_hash(ray_key + 1u) : ray_key);
         if (kind == BY_LOBE)
             light.radiance = light_met(r, hit, value.pdf);
+        light.radiance *= hit.through;
         bool from_sky = kind == BY_SKY || (kind == BY_LOBE && hit.triangle < 0);
         bool arrives = live && (kind == BY_LOBE || hit.triangle < 0);
         vec3 added = (from_sky ? of_sky : of_lights) * light.radiance * weight;
         sum += arrives ? added : vec3(0.0);
 #ifdef BOUNCES
-        through = live ? of_lights * weight : vec3(0.0); /* of the last kind, the material's own */
+        through = live ? of_lights * weight * hit.through : vec3(0.0); /* of the last kind, the material's own */
         last = r;
         met = hit;
 #endif

@@ -10,9 +10,11 @@
 #include "raster/geometry/ray_tree.h"
 #include "raster/gl/gl_check.h"
 #include "raster/light/ray_albedos.h"
+#include "raster/light/ray_panes.h"
+#include "scene/light/pane.h"
 #include "scene/material/hair.h"
 
-enum { NODES, TRIANGLES, NORMALS, EMITTERS, MASKS, KINDS };
+enum { NODES, TRIANGLES, NORMALS, EMITTERS, MASKS, PANES, KINDS };
 
 /* The place of a triangle, counted through all meshes. */
 typedef struct TrianglePlace {
@@ -128,6 +130,30 @@ static size_t count_masks(const RayScene *self, const WeftScene *scene) {
     return count;
 }
 
+static size_t count_panes(const WeftScene *scene) {
+    size_t count = 0;
+    for (int m = 0; m < scene->mesh_count; m++)
+        if (scene_is_pane(scene, scene->meshes[m].material)) count += scene->meshes[m].triangle_count;
+    return count;
+}
+
+/* Puts what the triangles of panes let through, and notes at each where that is. at: as for put_emitters. */
+static void put_panes(const RayScene *self, const WeftScene *scene, const uint32_t *at, float *texels) {
+    size_t pane = (size_t)self->first[PANES], first = 0;
+    for (int m = 0; m < scene->mesh_count; m++) {
+        const Mesh *mesh = &scene->meshes[m];
+        const uint32_t count = scene_is_pane(scene, mesh->material) ? mesh->triangle_count : 0;
+        for (uint32_t k = 0; k < count; k++, pane += 2) {
+            float facing[3], grazing[3];
+            ray_pane_triangle(scene, mesh, k, facing, grazing);
+            put(texels + 4 * pane, vec3_load(facing), 0.0f);
+            put(texels + 4 * (pane + 1), vec3_load(grazing), 0.0f);
+            texels[4 * ((size_t)self->first[TRIANGLES] + 3 * (size_t)at[first + k] + 1) + 3] = -(float)pane;
+        }
+        first += kept_of(scene, m, self->hair_share);
+    }
+}
+
 /* Fills the texels. Returns false if memory is short. */
 static bool fill(const RayScene *self, const RayTree *tree, const WeftScene *scene, const SheenTables *sheens,
                  const RayEmitters *emitters, float *texels) {
@@ -148,6 +174,7 @@ static bool fill(const RayScene *self, const RayTree *tree, const WeftScene *sce
             triangle[11] = (float)++masks;
     }
     const bool lit = made && put_emitters(self, scene, emitters, at, texels);
+    if (lit) put_panes(self, scene, at, texels);
     free(albedos);
     free(places);
     free(at);
@@ -173,8 +200,8 @@ static WeftResult fill_texture(RayScene *self, const RayTree *tree, const WeftSc
     RayEmitters emitters;
     GLint most = 0;
     if (!ray_emitters_find(&emitters, scene)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    const size_t sizes[] = {2 * (size_t)tree->node_count, 3 * (size_t)tree->count, 3 * (size_t)tree->count,
-                            4 * (size_t)emitters.count, 3 * count_masks(self, scene)};
+    const size_t sizes[] = {2 * (size_t)tree->node_count, 3 * (size_t)tree->count,      3 * (size_t)tree->count,
+                            4 * (size_t)emitters.count,   3 * count_masks(self, scene), 2 * count_panes(scene)};
     size_t texels = 0;
     for (int k = 0; k < KINDS; k++) {
         self->first[k] = (int)texels;

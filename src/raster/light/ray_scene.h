@@ -3,12 +3,13 @@
  * The texture has four floats a texel, and RAY_ROW texels a row. One after the other it has
  *
  *   nodes      two texels each: low, skip; high, first (ray_tree.h)
- *   triangles  three each, in the order of the tree: corner a and its surface; b and 1 + its emitter, or 0; c and 1 + its
- *              mask, or 0
+ *   triangles  three each, in the order of the tree: corner a and its surface; b and 1 + its emitter, or of a pane less
+ *              than 0 its texel among the panes, or 0; c and 1 + its mask, or 0
  *   normals    three each: at the corners, 0 if the mesh has none; and for a bounce red, green and blue of what it sends
  *              back (ray_albedos.h)
  *   emitters      four each: a, until; ab, 1 if both sides emit; ac, area; radiance, probability (emitters.h)
  *   masks      three each: the numbers of ray_masks.h
+ *   panes      two each: the numbers of ray_panes.h
  *
  * A surface is its opacity, plus 4 if it has only a front side. Departures: gaps of a woven cloth and alphas of vertex
  * colours count with their mean over a triangle without a map of opacity. Of hair of more than RAY_FIBRES_MOST fibres there
@@ -34,7 +35,7 @@ typedef struct RayScene {
     bool bounces;           /* the texture has what triangles send back */
     unsigned texture;       /* 0: none */
     int rows;               /* of the texture */
-    int first[5];           /* texel of the first node, triangle, normal, emitter and mask */
+    int first[6];           /* texel of the first node, triangle, normal, emitter, mask and pane */
     int emitters;
     RayMasks masks;
 } RayScene;

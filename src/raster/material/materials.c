@@ -11,6 +11,7 @@
 #include "raster/material/cloth_sky.h"
 #include "raster/material/families.h"
 #include "raster/material/programs.h"
+#include "scene/light/pane.h"
 #include "scene/light/polygons.h"
 #include "scene/material/hair.h"
 #include "scene/record/material_at.h"
@@ -183,6 +184,7 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
         }
         if (material->used) {
             material->emits = material_emits(&scene->materials[k]);
+            if (scene_is_pane(scene, k)) material->clear = rgb_mean(pane_transmittance(scene, k, NULL, NULL, 1.0f));
             make_material(material, &scene->materials[k], textures, &uniforms);
             material->key.hairy = hair_is_material(scene, k);
             material->key.ranged = self->count > MATERIALS_BAKED && is_isotropic(&material->key);
@@ -205,7 +207,7 @@ static bool is_same(const GlMaterial *a, const GlMaterial *b) {
 
 static void add_change(const GlMaterial *old, const GlMaterial *fresh, MaterialsChange *change) {
     change->coverage |= old->key.alpha_mode != WEFT_ALPHA_OPAQUE || fresh->key.alpha_mode != WEFT_ALPHA_OPAQUE ||
-                        old->key.double_sided != fresh->key.double_sided;
+                        old->key.double_sided != fresh->key.double_sided || old->clear > 0.0f || fresh->clear > 0.0f;
     change->emission |= old->emits || fresh->emits;
 }
 

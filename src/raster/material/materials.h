@@ -23,6 +23,7 @@ typedef struct GlMaterial {
     int group_count;
     bool used;                /* by some mesh */
     bool emits;               /* true if it emits light */
+    float clear;              /* the part of light straight onto it that a pane lets through; 0: it is no pane */
     int cloth;                /* number of the scene's cloth, from 1, below 0 its other face; 0: none */
     float finest[SLOT_COUNT]; /* AmbientFit.finest of baked tables, the greatest of the family; 0 without a table */
     MaterialFit fits[SLOT_COUNT];

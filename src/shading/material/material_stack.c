@@ -43,6 +43,8 @@ Rgb stack_clear_f_cos(const Stack *stack, const StackView *view, Dir i) {
     return stack_through_glass(stack, view, &a).f_cos;
 }
 
+Rgb stack_straight(const Stack *stack, const StackView *view) { return stack_glass_straight(stack, view); }
+
 void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed, StackValue *value) {
     *value = (StackValue){0};
     if (view->o.z <= 0.0f) return;

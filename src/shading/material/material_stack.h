@@ -38,6 +38,9 @@ ONE_COPY StackValue stack_eval_of(const Stack *stack, const StackView *view, Slo
  * there that is no diffuse light. */
 ONE_COPY Rgb stack_clear_f_cos(const Stack *stack, const StackView *view, Dir i);
 
+/* Returns what of light from straight behind smooth thin glass goes on towards wo (stack_glass_straight). */
+ONE_COPY Rgb stack_straight(const Stack *stack, const StackView *view);
+
 /* Computes a wi for (u, v) in [0, 1)^2. If there is no sample, wi is at the horizon, or below it if nothing is
  * transmitted. */
 ONE_COPY void stack_sample(const Stack *stack, const StackView *view, float u, float v, Dir *i);

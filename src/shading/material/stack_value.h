@@ -158,6 +158,16 @@ FN StackValue stack_through_glass(const Stack *m, const StackView *w, const Angl
     return g;
 }
 
+/* Returns what smooth glass lets through of light that goes straight on towards wo: the integral over wi of f cos_i of
+ * stack_through_glass as alpha tends to 0,
+ *
+ *   T(wo) = tint (1 - F(cos_o)), times the factors of the layers. */
+FN Rgb stack_glass_straight(const Stack *m, const StackView *w) {
+    SlotColors c = stack_glass_colors(m, w);
+    Angles a = angles_between(w->o, dir(-w->o.x, -w->o.y, w->o.z));
+    return rgb_mul(rgb_mix(c.f0, c.f90, schlick_s(w->o.z)), stack_over_glass(m, w, &a));
+}
+
 /* Returns f cos_i and the pdf of light from below the surface that comes through. a: of its mirror image above. */
 FN StackValue stack_transmitted(const Stack *m, const StackView *w, const Angles *a) {
     StackValue v = stack_transmitted_evenly(m, w, a);

@@ -194,6 +194,7 @@ static void set_context(WeftRender *render) {
                              .lift = !d->no_lift,
                              .stages = d->stages != 0,
                              .solids = path_materials_solid(render->materials, scene_shaded_materials(render->scene)),
+                             .panes = !d->no_shadows && geometry_has_panes(render->geometry),
                              .sky_in_parts = environment_in_parts(&render->scene->environment),
                              .first_hits = d->first_hits != 0,
                              .places = d->places || d->mattes,

@@ -2,12 +2,14 @@
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "trace/geometry/geometry.h"
 #include "trace/geometry/guard.h"
 
 #include "base/fail.h"
 #include "base/random.h"
+#include "scene/light/pane.h"
 #include "scene/record/material_at.h"
 #include "weft/isa.h"
 
@@ -19,7 +21,7 @@ struct Geometry {
     int meshes, threads;
     unsigned shape_version; /* of the scene then */
     atomic_int error;       /* the first RTCError, which may come from Embree's own threads */
-    bool built;
+    bool built, panes;      /* panes: a mesh is one */
 };
 
 static struct RTCRay to_embree(const Ray *ray) {
@@ -45,17 +47,22 @@ static Hit from_embree(const struct RTCHit *h, float t) {
     return (Hit){t, h->geomID, h->primID, h->u, h->v, {h->Ng_x, h->Ng_y, h->Ng_z}};
 }
 
-/* The data of a material that decide, beside the triangle, if a ray hits. */
-enum { CHECK_SIDE = 1, CHECK_OPACITY = 2, IS_SOLID = 4 };
+/* The data of a material that decide, beside the triangle, if a ray hits, and if light goes straight on there. */
+enum { CHECK_SIDE = 1, CHECK_OPACITY = 2, IS_SOLID = 4, IS_PANE = 8 };
 static int checks_of(const Material *material, bool solid) {
     const int side = material->double_sided || solid ? 0 : CHECK_SIDE;
     return side + (material->alpha_mode != WEFT_ALPHA_OPAQUE ? CHECK_OPACITY : 0) + (solid ? IS_SOLID : 0);
 }
 
 static unsigned char mesh_checks(const WeftScene *scene, int mesh) {
-    const Material *material = &scene->materials[scene->meshes[mesh].material];
-    return (unsigned char)checks_of(material, material_is_solid(material));
+    const int k = scene->meshes[mesh].material;
+    const Material *material = &scene->materials[k];
+    return (unsigned char)(checks_of(material, material_is_solid(material)) + (scene_is_pane(scene, k) ? IS_PANE : 0));
 }
+
+bool geometry_is_pane(const Geometry *geometry, uint32_t mesh) { return (geometry->checks[mesh] & IS_PANE) != 0; }
+
+bool geometry_has_panes(const Geometry *geometry) { return geometry->panes; }
 
 /* Returns true if hits of a mesh may not count. */
 static bool is_checked(const Geometry *geometry, uint32_t mesh) {
@@ -77,12 +84,35 @@ static bool hit_counts(const Geometry *geometry, const Hit *hit, Vec3 direction,
     return unit_float(hash_combine(hash_combine(key, hit->mesh), hit->triangle)) < opacity;
 }
 
+Rgb geometry_pane(const Geometry *geometry, const Hit *hit, Vec3 direction) {
+    const WeftScene *scene = geometry->scene;
+    const Mesh *mesh = &scene->meshes[hit->mesh];
+    Attributes at = geometry_attributes(mesh, hit);
+    const float cosine = fabsf(vec3_dot(geometry_vertex(mesh, hit).normal, direction));
+    return pane_transmittance(scene, mesh->material, at.uv, at.color, cosine);
+}
+
+float geometry_chance(const Hit *hit, uint32_t key) {
+    uint32_t u;
+    memcpy(&u, &hit->u, sizeof u);
+    return unit_float(hash_combine(hash_combine(hash_combine(key, u), hit->mesh), hit->triangle));
+}
+
 /* A call to Embree. */
 typedef struct Query {
     struct RTCIntersectContext context; /* the first member: filter casts its address back */
     const Geometry *geometry;
     bool past_lights;
+    bool shadow;   /* the rays are those of geometry_occluded and geometry_occlusions */
+    bool through;  /* they pass panes */
+    bool met_pane; /* becomes true where they do */
 } Query;
+
+/* Returns true if a shadow ray ends at a pane. */
+static bool pane_hides(Query *query, const Hit *hit, Vec3 direction, uint32_t key) {
+    query->met_pane = true;
+    return !query->through && geometry_chance(hit, key) >= rgb_mean(geometry_pane(query->geometry, hit, direction));
+}
 
 static Query query_of(const Geometry *geometry, bool past_lights) {
     Query query = {.geometry = geometry, .past_lights = past_lights};
@@ -105,15 +135,18 @@ static Vec3 vector_at(const void *rows, unsigned n, int row, unsigned k) {
 
 /* Rejects candidates that do not count (an Embree filter). */
 static void filter(const struct RTCFilterFunctionNArguments *a) {
-    const Query *query = (const Query *)(const void *)a->context;
+    Query *query = (Query *)(void *)a->context;
     for (unsigned k = 0, n = a->N; k < n; k++) {
         if (!a->valid[k]) continue;
         Hit hit = {number_at(a->ray, n, RAY_FAR, k),    word_at(a->hit, n, HIT_MESH, k),
                    word_at(a->hit, n, HIT_TRIANGLE, k), number_at(a->hit, n, HIT_U, k),
                    number_at(a->hit, n, HIT_V, k),      vector_at(a->hit, n, HIT_FACING, k)};
         Vec3 direction = vector_at(a->ray, n, RAY_DIRECTION, k);
-        if (!hit_counts(query->geometry, &hit, direction, word_at(a->ray, n, RAY_ID, k), query->past_lights))
-            a->valid[k] = 0;
+        const uint32_t key = word_at(a->ray, n, RAY_ID, k);
+        bool counts = hit_counts(query->geometry, &hit, direction, key, query->past_lights);
+        if (counts && query->shadow && geometry_is_pane(query->geometry, hit.mesh))
+            counts = pane_hides(query, &hit, direction, key);
+        if (!counts) a->valid[k] = 0;
     }
 }
 
@@ -132,7 +165,7 @@ static bool attach(Geometry *geometry, uint32_t id) {
                                mesh->vertex_count);
     rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->index, 0, 3 * sizeof(uint32_t),
                                mesh->triangle_count);
-    if (is_checked(geometry, id)) rtcSetGeometryOccludedFilterFunction(g, filter);
+    if (is_checked(geometry, id) || geometry_is_pane(geometry, id)) rtcSetGeometryOccludedFilterFunction(g, filter);
     rtcCommitGeometry(g);
     rtcAttachGeometryByID(geometry->accel, g, id);
     rtcReleaseGeometry(g);
@@ -201,7 +234,10 @@ WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geom
         free(geometry);
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
-    for (int k = 0; k < meshes; k++) geometry->checks[k] = mesh_checks(scene, k);
+    for (int k = 0; k < meshes; k++) {
+        geometry->checks[k] = mesh_checks(scene, k);
+        geometry->panes |= geometry_is_pane(geometry, (uint32_t)k);
+    }
     bool starved;
     if (guarded(build, geometry, &starved) && geometry->built) {
         *out = geometry;
@@ -248,6 +284,7 @@ bool geometry_triangle(const Geometry *geometry, Ray ray, Hit *hit) {
 bool geometry_occluded(const Geometry *geometry, Ray ray) {
     if (!is_valid(&ray)) return true;
     Query query = query_of(geometry, ray.past_lights);
+    query.shadow = true;
     struct RTCRay r = to_embree(&ray);
     rtcOccluded1(geometry->accel, &query.context, &r);
     return r.tfar < 0.0f;
@@ -296,7 +333,7 @@ static Ray ray_at(const RayRows *rays, int k) {
     return (Ray){vec3(rays->o[0][k], rays->o[1][k], rays->o[2][k]),
                  vec3(rays->d[0][k], rays->d[1][k], rays->d[2][k]),
                  0.0f,
-                 INFINITY,
+                 rays->far ? rays->far[k] : INFINITY,
                  rays->key[k],
                  rays->past_lights};
 }
@@ -336,17 +373,46 @@ void geometry_hits(const Geometry *geometry, const RayRows *rays, int count, con
     }
 }
 
-void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int count, bool *occluded) {
+/* Returns what the panes on a ray that nothing hides let through, one after the other. Those a millionth of the way apart
+ * are one: the two triangles of a pane, where the ray meets their edge. */
+static Rgb panes_along(const Geometry *geometry, Ray ray) {
+    enum { STEPS = 256 };
+    Rgb through = rgb_grey(1.0f);
+    Hit hit;
+    for (int k = 0; k < STEPS && geometry_triangle(geometry, ray, &hit); k++) {
+        const bool counts = hit_counts(geometry, &hit, ray.direction, ray.key, ray.past_lights);
+        if (counts && geometry_is_pane(geometry, hit.mesh))
+            through = rgb_mul(through, geometry_pane(geometry, &hit, ray.direction));
+        ray.near = geometry_past(hit.t);
+    }
+    return through;
+}
+
+void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int count, bool *occluded, Rgb *through) {
     Query query = packet_query(geometry, rays);
+    query.shadow = true;
+    query.through = through != NULL;
     struct RTCRay16 q;
     _Alignas(64) int valid[GEOMETRY_PACKET];
     start_packet(&q);
     for (int first = 0; first < count; first += GEOMETRY_PACKET) {
         fill_packet(rays, first, count - first, valid, &q);
+        query.met_pane = false;
         rtcOccluded16(valid, geometry->accel, &query.context, &q);
-        for (int k = 0; k < GEOMETRY_PACKET && first + k < count; k++)
-            occluded[first + k] = !valid[k] || q.tfar[k] < 0.0f;
+        for (int k = first; k < first + GEOMETRY_PACKET && k < count; k++) {
+            occluded[k] = !valid[k - first] || q.tfar[k - first] < 0.0f;
+            if (!through) continue;
+            const bool clear = !query.met_pane || occluded[k];
+            through[k] = clear ? rgb_grey(1.0f) : panes_along(geometry, ray_at(rays, k));
+        }
     }
+}
+
+Vec3 geometry_winding(const Mesh *mesh, uint32_t triangle) {
+    const uint32_t *index = mesh->index + 3 * (size_t)triangle;
+    Vec3 p[3];
+    for (int corner = 0; corner < 3; corner++) p[corner] = vec3_load(mesh->position + 3 * (size_t)index[corner]);
+    return vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
 }
 
 static Vec3 blend(const float *attribute, const uint32_t *index, float w, float u, float v) {

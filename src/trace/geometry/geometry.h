@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/record/scene.h"
+#include "shading/dialect/rgb.h"
 
 typedef struct Geometry Geometry;
 
@@ -10,8 +11,12 @@ WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geom
 void geometry_free(Geometry *geometry);
 
 /* Returns true if the acceleration structure is still valid: it depends on the shapes, and on which materials are
- * single-sided or have an opacity. */
+ * single-sided, panes (scene/light/pane.h) or have an opacity. */
 bool geometry_serves(const Geometry *geometry);
+
+/* Returns true if a mesh is a pane, or if any is. */
+bool geometry_is_pane(const Geometry *geometry, uint32_t mesh);
+bool geometry_has_panes(const Geometry *geometry);
 
 typedef struct Ray {
     Vec3 origin;
@@ -32,10 +37,20 @@ typedef struct Hit {
  * through transparent points. */
 bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit);
 
+/* Returns the part of light along a direction that a pane lets through at a hit. */
+Rgb geometry_pane(const Geometry *geometry, const Hit *hit, Vec3 direction);
+
+/* Returns a random number in [0, 1) for a ray at a pane. It depends on the place too, as rays of one key may start at one
+ * point. */
+float geometry_chance(const Hit *hit, uint32_t key);
+
+/* Returns where a ray goes on that has passed a hit at t. */
+static inline float geometry_past(float t) { return t + 1e-6f * fabsf(t); }
+
 /* Finds the nearest triangle, whatever its side and opacity. */
 bool geometry_triangle(const Geometry *geometry, Ray ray, Hit *hit);
 
-/* Returns true if anything lies on the ray between near and far. */
+/* Returns true if anything lies on the ray between near and far. A pane does by chance, as often as it takes of light. */
 bool geometry_occluded(const Geometry *geometry, Ray ray);
 
 /* Rays as arrays, from their origins on. They are traced GEOMETRY_PACKET at a time: the arrays must have the length of
@@ -59,8 +74,12 @@ typedef struct HitRows {
 /* Finds the nearest hits of `count` rays. */
 void geometry_hits(const Geometry *geometry, const RayRows *rays, int count, const HitRows *hits);
 
-/* Sets occluded[k] if anything lies between ray k's origin and its far end, or if the ray is invalid. */
-void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int count, bool *occluded);
+/* Sets occluded[k] if anything lies between ray k's origin and its far end, or if the ray is invalid. Panes do not lie
+ * there, but through[k] becomes what they let through, unless `through` is NULL: then they do by chance, as above. */
+void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int count, bool *occluded, Rgb *through);
+
+/* Returns the normal of a triangle by its winding, not normalised. */
+Vec3 geometry_winding(const Mesh *mesh, uint32_t triangle);
 
 /* Position and orientation of a hit. */
 typedef struct Vertex {

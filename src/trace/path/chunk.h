@@ -110,6 +110,7 @@ typedef struct Chunk {
     Row sample_weight;           /* next_throughput / (throughput f cos): 1 / (pdf times chance of survival) */
     int selected[ROW_CAPACITY];  /* indices of the vertices with a shadow ray, or of those that continue */
     bool occluded[ROW_CAPACITY]; /* by shadow ray */
+    Rgb through[ROW_CAPACITY];   /* what panes leave of a shadow ray's light, if there are any */
     struct {
         Row origin[3];
         Row direction[3];

@@ -10,7 +10,7 @@ static bool leaves(const PathContext *context, int material, Ray ray, float *t) 
     for (int k = 0; k < STEPS && geometry_triangle(context->geometry, ray, &hit); k++) {
         *t = hit.t;
         if (context->scene->meshes[hit.mesh].material == material) return vec3_dot(hit.facing, ray.direction) > 0.0f;
-        ray.near = hit.t + 1e-6f * fabsf(hit.t);
+        ray.near = geometry_past(hit.t);
     }
     return false;
 }

@@ -118,14 +118,18 @@ LOOP(aim_n, (Chunk *restrict chunk, LightGroup group, bool transmits, int n), (c
         aim_each(chunk, group, false, n);
 }
 
+/* Leaves a part of the light sample of vertex k. */
+static void dim(Chunk *chunk, int k, Rgb left) {
+    chunk->contribution[0][k] *= left.r;
+    chunk->contribution[1][k] *= left.g;
+    chunk->contribution[2][k] *= left.b;
+}
+
 /* Takes from the light sample of vertex k what solid glass absorbs on its way, if the light is inside too. */
 static void absorb_light(Chunk *chunk, const ChunkSource *source, LightGroup group, int k) {
     const int inside = chunk_inside(chunk, source, k, chunk->vertices.i[group][2][k] < 0.0f);
     if (!inside || !(chunk->shadow_distance[k] < 0.5f * LIGHT_FAR)) return;
-    const Rgb left = solid_left(source->context->materials[inside - 1].absorption, chunk->shadow_distance[k]);
-    chunk->contribution[0][k] *= left.r;
-    chunk->contribution[1][k] *= left.g;
-    chunk->contribution[2][k] *= left.b;
+    dim(chunk, k, solid_left(source->context->materials[inside - 1].absorption, chunk->shadow_distance[k]));
 }
 
 int chunk_add_light(Chunk *chunk, const ChunkSource *source, LightGroup group, PathRadiance *radiance) {
@@ -135,6 +139,7 @@ int chunk_add_light(Chunk *chunk, const ChunkSource *source, LightGroup group, P
     if (sampling == WEFT_SAMPLING_LOBE && !punctual) return 0;
     weigh_n(chunk, group, !punctual && sampling == WEFT_SAMPLING_MIS, row_whole(source->n));
     int count = select_shadow_rays(chunk, source->n);
+    Rgb *through = context->panes ? chunk->through : NULL;
     if (context->shadows) {
         aim_n(chunk, group, context->materials[source->material].transmits, row_whole(count));
         const RayRows rays = {
@@ -145,12 +150,13 @@ int chunk_add_light(Chunk *chunk, const ChunkSource *source, LightGroup group, P
             false,
             false};
         stage_end(chunk->clock, STAGE_WEIGH);
-        geometry_occlusions(context->geometry, &rays, count, chunk->occluded);
+        geometry_occlusions(context->geometry, &rays, count, chunk->occluded, through);
         stage_end(chunk->clock, STAGE_OCCLUSIONS);
     }
     for (int k = 0; k < count; k++) {
         int j = chunk->selected[k];
         if (context->shadows && chunk->occluded[k]) continue;
+        if (through) dim(chunk, j, through[k]);
         if (context->solids) absorb_light(chunk, source, group, j);
         for (int a = 0; a < 3; a++) radiance->rgba[a][chunk->id[j]] += chunk->contribution[a][j];
         if (chunk->slots && source->depth == 0) slot_light_add(chunk->slots, chunk, group, j);

@@ -21,6 +21,7 @@ typedef struct PathMaterial {
     bool emits;               /* may emit light */
     bool needs_tangents;      /* the shading frame depends on a normal map, a cloth or anisotropy */
     bool transmits;           /* transmits light: samples from both sides count */
+    bool pane;                /* light goes straight on there (panes.c) */
     const WeftCloth *cloth;   /* the base is woven of this; NULL: not woven */
     const Measured *measured; /* reflects in place of the stack; NULL: the stack does */
     bool solid;               /* of solid glass, which was taken out of `stack` */
@@ -46,6 +47,7 @@ typedef struct PathContext {
     bool stages;          /* stages are timed */
     bool sky_in_parts;    /* the environment's factors `ambient` and `reflection` are not both 1 */
     bool solids;          /* a material is of solid glass */
+    bool panes;           /* a mesh is a pane, and shadow rays are traced */
     int eye_inside;       /* the solid in which the camera is, by its material, from 1; 0: none */
     bool first_hits;      /* first hits are recorded */
     bool places;          /* where they are, and on which meshes, too */

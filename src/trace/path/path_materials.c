@@ -1,6 +1,7 @@
 #include "trace/path/path_materials.h"
 
 #include "base/equal.h"
+#include "scene/light/pane.h"
 #include "scene/light/polygons.h"
 #include "scene/record/material_at.h"
 #include "shading/stack/frame.h"
@@ -34,7 +35,8 @@ static void prepare_solid(PathMaterial *prepared, const Surface *surface) {
     solid_table_fill(&prepared->glass, textured, &prepared->table);
 }
 
-static void prepare(const WeftScene *scene, const Material *material, TableRef sheen_e, PathMaterial *prepared) {
+static void prepare(const WeftScene *scene, int k, TableRef sheen_e, PathMaterial *prepared) {
+    const Material *material = &scene->materials[k];
     prepared->material = *material;
     prepared->material.inputs[INPUT_occlusion].texture = 0; /* paths trace it */
     prepared->material.inputs[INPUT_opacity].texture = 0;   /* a ray that hits has decided it */
@@ -63,6 +65,7 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
         stack_put_base(&prepared->stack, &yarn, rgb_grey(1.0f), rgb_grey(1.0f));
     }
     prepare_solid(prepared, &surface);
+    prepared->pane = scene_is_pane(scene, k);
     const bool settles = dust_settles(prepared->untextured);
     const bool usual = !prepared->measured && !settles && is_without_coming(prepared);
     prepared->kind = usual ? stack_kind(&prepared->stack, &prepared->choices) : NULL;
@@ -79,8 +82,7 @@ PathMaterial *path_materials_create(const WeftScene *scene, const SheenTables *t
     size_t count = (size_t)scene_shaded_materials(scene);
     PathMaterial *materials = alloc_array(count, sizeof(PathMaterial));
     if (!materials) return NULL;
-    for (size_t k = 0; k < count; k++)
-        prepare(scene, &scene->materials[k], sheen_tables_of(tables, (int)k), &materials[k]);
+    for (size_t k = 0; k < count; k++) prepare(scene, (int)k, sheen_tables_of(tables, (int)k), &materials[k]);
     for (int k = 0; k < scene->mesh_count; k++) {
         const int front = scene->meshes[k].material, back = scene_back(scene, front);
         if (!scene->meshes[k].color) continue;

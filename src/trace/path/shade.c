@@ -142,14 +142,16 @@ static void shade_vertex(Chunk *chunk, const ChunkSource *source, const PathMate
     const PathContext *context = source->context;
     KindVertices *vertices = &chunk->vertices;
     const bool inside = material->solid && chunk->side[k] < 0.0f;
+    const bool stays = material->pane && context->panes && source->depth > 0; /* what passes does so before (panes.c) */
     const Stack *stack = stack_at(chunk, material, k);
     uint32_t seed = hash32(chunk->key[k]);
     Dir o = dir(vertices->o[0][k], vertices->o[1][k], vertices->o[2][k]), wi;
     StackValue value;
     SolidView solid = {0};
-    if (inside) {
+    if (inside || stays) {
         if (stack != &chunk->stack) chunk->stack = *stack;
-        solid_hide_highlight(&chunk->stack);
+        if (inside) solid_hide_highlight(&chunk->stack);
+        if (stays) solid_drop(&chunk->stack);
         stack = &chunk->stack;
     }
     stack_see(stack, &o, &chunk->view);

@@ -16,13 +16,17 @@ SolidGlass solid_take(Stack *stack, const Surface *surface, const SolidTable *ta
                               .interface_f0 = stack->interface_f0,
                               .interface_f90 = stack->interface_f90,
                               .table = table};
+    solid_drop(stack);
+    return glass;
+}
+
+void solid_drop(Stack *stack) {
     Slot *diffuse = &stack->diffuse;
     const float through = rgb_mean(stack->transmitted), clear = stack_glass_facing(stack);
     const bool dark = !(rgb_max3(diffuse->f0) + rgb_max3(diffuse->f90) + through > 0.0f);
     diffuse->normal = dark ? 0.0f : max(diffuse->normal - clear, 1e-30f);
     stack->transmitted_p = min(stack->transmitted_p * (diffuse->normal + clear) / max(diffuse->normal, 1e-30f), 1.0f);
     stack_without_glass(stack);
-    return glass;
 }
 
 void solid_hide_highlight(Stack *stack) { stack->specular.normal = 0.0f; }

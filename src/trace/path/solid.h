@@ -55,6 +55,9 @@ typedef struct SolidView {
 /* Takes the glass out of a stack, which then only reflects. surface: that of the stack. */
 SolidGlass solid_take(Stack *stack, const Surface *surface, const SolidTable *table);
 
+/* Takes the glass out of a stack as solid_take does, without a record of it. */
+void solid_drop(Stack *stack);
+
 /* Fills the table of a glass, whose own is not read: for all roughnesses if that is textured, else about its own. */
 void solid_table_fill(const SolidGlass *glass, bool textured, SolidTable *table);
 

@@ -37,10 +37,7 @@ HitRows stream_hits(Stream *stream) {
 /* Returns true if path k hits its triangle from behind. */
 static bool hits_back(const Stream *stream, const Paths *paths, int k) {
     const Mesh *mesh = &stream->context->scene->meshes[stream->mesh[k]];
-    const uint32_t *index = mesh->index + 3 * (size_t)stream->triangle[k];
-    Vec3 p[3];
-    for (int corner = 0; corner < 3; corner++) p[corner] = vec3_load(mesh->position + 3 * (size_t)index[corner]);
-    const Vec3 winding = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
+    const Vec3 winding = geometry_winding(mesh, stream->triangle[k]);
     return vec3_dot(winding, vec3(paths->direction[0][k], paths->direction[1][k], paths->direction[2][k])) > 0.0f;
 }
 
@@ -150,8 +147,8 @@ static int shade_class(Stream *stream, ChunkSource source, int begin, int end, P
     return count;
 }
 
-/* Finds the nearest hits of n paths. */
-static void trace(Stream *stream, const Paths *paths, int n) {
+/* Finds the nearest hits of n paths, behind the panes that they pass. */
+static void trace(Stream *stream, Paths *paths, int n) {
     const RayRows rays = {{paths->origin[0], paths->origin[1], paths->origin[2]},
                           {paths->direction[0], paths->direction[1], paths->direction[2]},
                           NULL,       /* no far end */
@@ -161,6 +158,7 @@ static void trace(Stream *stream, const Paths *paths, int n) {
     const HitRows hits = stream_hits(stream);
     geometry_hits(stream->context->geometry, &rays, n, &hits);
     stream->rays += n;
+    stream_pass_panes(stream, paths, n);
     stage_end(stream->chunk.clock, STAGE_HITS);
 }
 
@@ -201,8 +199,7 @@ void stream_follow(Stream *stream, int n) {
     stream->chunk.filled_material = 0; /* the chunk has the inputs of no material */
     if (stream->slots) slot_light_begin(stream->slots);
     for (int depth = 0; n > 0; depth++) {
-        const Paths *paths = &stream->paths[depth % 2];
-        Paths *next = &stream->paths[(depth + 1) % 2];
+        Paths *paths = &stream->paths[depth % 2], *next = &stream->paths[(depth + 1) % 2];
         if (depth > 0) trace(stream, paths, n);
         sort_by_class(stream, paths, n, classes);
         add_misses(stream, paths, depth, classes);

@@ -39,6 +39,9 @@ void stream_free(Stream *stream);
 /* Returns the stream's hits in the form that geometry_hits fills. */
 HitRows stream_hits(Stream *stream);
 
+/* Sends those of n paths on that pass the panes that they hit (panes.c). */
+void stream_pass_panes(Stream *stream, Paths *paths, int n);
+
 /* Follows the first n paths of paths[0], whose hits are filled, to their ends. A path whose mesh is STREAM_DONE has
  * ended already. */
 #define STREAM_DONE (GEOMETRY_NOTHING - 1)
