@@ -1,4 +1,4 @@
-/* crash.h - what is left of a program that crashes: where it was */
+/* crash.h - the last words of a program that crashes */
 #pragma once
 
 /* Makes a crash, such as a fault in a driver, say one line and the addresses of the calls that led to it, for a report.

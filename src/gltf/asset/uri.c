@@ -105,8 +105,8 @@ unsigned char *uri_decode(const Field *field, const char *uri, size_t *size) {
         field_fail(field, WEFT_MESSAGE_GLTF_URI, "a data URI needs a comma before its data");
         return NULL;
     }
-    const char *marker = comma - strlen(base64);
-    const bool encoded = marker >= uri && strncasecmp(marker, base64, strlen(base64)) == 0;
+    const size_t before = (size_t)(comma - uri), length = strlen(base64);
+    const bool encoded = before >= length && strncasecmp(comma - length, base64, length) == 0;
     return encoded ? base64_decode(field, comma + 1, size) : percent_decode(field, comma + 1, size);
 }
 

@@ -202,8 +202,8 @@ static WeftResult compile_shaders(WeftRaster *self, const WeftRasterView *view, 
     return kept ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "shaders", NULL);
 }
 
-/* Draws the depths of all meshes but hair, which is finer than a texel of the maps, and panes that let through more than
- * half of light, which in the maps let all of it through. A single-sided surface hides the light
+/* Draws the depths of all meshes but hair, which is finer than a texel of the maps. Clear panes are left out too: in the maps
+ * they let all of light through. A single-sided surface hides the light
  * from what it faces, since it is seen from there, and has no shadow on the side of its back: so the faces that look away
  * from the light are drawn, as the path tracer's rays to the light meet them. */
 static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
@@ -211,7 +211,7 @@ static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
     for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
         if (hair_is_mesh(self->scene, m)) continue;
         const int k = self->scene->meshes[m].material;
-        if (self->materials.all[k].clear > 0.5f) continue;
+        if (self->materials.all[k].clear) continue;
         ShaderKey key = depth_key(&self->materials.all[k].key);
         result = draw_mesh(self, m, k, GL_NONE, PASS_SOLID, &key, error);
     }

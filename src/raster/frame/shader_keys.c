@@ -80,6 +80,7 @@ ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMa
     if (self->summing) {
         key.reference = environment_in_parts(&self->scene->environment) ? 2 : 1;
         key.bounces = view->bounces;
+        key.panes = self->materials.panes;
         return key;
     }
     add_lights(self, view, &key);

@@ -77,6 +77,7 @@ bool ray_counts(Ray r, RayTriangle p, RayHit hit, int triangle, uint key) {
     return opacity >= 1.0 || point_fraction(point_hash_two(key, uint(triangle))) < opacity;
 }
 
+#ifdef PANES
 /* Returns what a pane lets through along a ray (raster/light/ray_panes.h). */
 vec3 ray_pane(Ray r, RayTriangle p) {
     int at = int(-p.emitter);
@@ -84,6 +85,7 @@ vec3 ray_pane(Ray r, RayTriangle p) {
     float cosine = abs(dot(n, r.direction)) * inversesqrt(max(dot(n, n), 1e-30));
     return mix(ray_texel(at).rgb, ray_texel(at + 1).rgb, schlick_s(cosine));
 }
+#endif
 
 /* Returns the nearest hit, or if `any` the first one that is found. Rays pass panes; those before the nearest hit are
  * found in a second walk, if there are any. near_to: the distance to which hits are to be near, or 0; all triangles count
@@ -94,7 +96,9 @@ RayHit ray_trace(Ray r, bool any, float near_to, uint key) {
     int node = 0, count = int(ray_first.x);
     RayHit found = RayHit(r.far, -1, 0.0, 0.0, vec3(1.0));
     float near = r.near, far = r.far;
+#ifdef PANES
     bool panes = false, again = any;
+#endif
     while (node < count) {
         vec4 low = ray_texel(2 * node), high = ray_texel(2 * node + 1);
         vec3 x = (low.xyz - r.origin) * inverse, y = (high.xyz - r.origin) * inverse;
@@ -109,10 +113,12 @@ RayHit ray_trace(Ray r, bool any, float near_to, uint key) {
             RayHit hit = ray_meet(r, p);
             if (hit.t < near || hit.t > far) continue;
             if (near_to == 0.0 && !ray_counts(r, p, hit, k, key)) continue;
+#ifdef PANES
             bool pane = p.emitter < -0.5 && near_to == 0.0;
             panes = panes || pane;
             if (pane && again) found.through *= ray_pane(r, p);
             if (pane || (again && !any)) continue;
+#endif
             found = RayHit(hit.t, k, hit.u, hit.v, found.through);
             float off = abs(hit.t - near_to);
             far = near_to > 0.0 ? near_to + off : hit.t;
@@ -120,9 +126,11 @@ RayHit ray_trace(Ray r, bool any, float near_to, uint key) {
         }
         node = inside || leaf ? node + 1 : int(low.w);
         if (any && found.triangle >= 0) node = count;
+#ifdef PANES
         bool repeats = node >= count && panes && !again;
         again = again || repeats;
         node = repeats ? 0 : node;
+#endif
     }
     return found;
 }

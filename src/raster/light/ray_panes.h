@@ -2,8 +2,8 @@
  *
  *   T(cos) = facing (1 - s) + grazing s,  s = schlick_s(cos)
  *
- * exact without a coat, whose own F at the same cosine makes a product of two such terms. Departure: maps and colours of
- * vertices have their mean over the triangle. */
+ * exact without a coat, whose own F at the same cosine makes a product of two such terms. Departures: maps and colours of
+ * vertices have their mean over the triangle, and the cosine is that to the flat triangle. */
 #pragma once
 
 #include "scene/record/scene.h"

@@ -142,7 +142,7 @@ static void put_panes(const RayScene *self, const WeftScene *scene, const uint32
     size_t pane = (size_t)self->first[PANES], first = 0;
     for (int m = 0; m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
-        const uint32_t count = scene_is_pane(scene, mesh->material) ? mesh->triangle_count : 0;
+        const uint32_t count = scene_is_pane(scene, mesh->material) ? mesh->triangle_count : 0; /* hair is none */
         for (uint32_t k = 0; k < count; k++, pane += 2) {
             float facing[3], grazing[3];
             ray_pane_triangle(scene, mesh, k, facing, grazing);

@@ -165,6 +165,15 @@ static void use(GlMaterial *material, const Mesh *mesh) {
     material->key.colored |= mesh->color != NULL;
 }
 
+/* Returns true if a pane lets through more than half of the light straight onto it. One with a map, as a window with its
+ * frame, may not everywhere. */
+static bool is_clear(const WeftScene *scene, int k) {
+    static const InputId mapped[] = {INPUT_transmission, INPUT_base_color, INPUT_metallic};
+    for (size_t m = 0; m < sizeof mapped / sizeof *mapped; m++)
+        if (scene->materials[k].inputs[mapped[m]].texture) return false;
+    return rgb_mean(pane_transmittance(scene, k, NULL, NULL, 1.0f)) > 0.5f;
+}
+
 /* Makes keys and uniforms of all materials, with the fits of the old ones. Returns false if memory is short. */
 static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *scene, const GlTextures *textures,
                  int threads) {
@@ -184,7 +193,9 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
         }
         if (material->used) {
             material->emits = material_emits(&scene->materials[k]);
-            if (scene_is_pane(scene, k)) material->clear = rgb_mean(pane_transmittance(scene, k, NULL, NULL, 1.0f));
+            material->pane = scene_is_pane(scene, k);
+            material->clear = material->pane && is_clear(scene, k);
+            self->panes |= material->pane;
             make_material(material, &scene->materials[k], textures, &uniforms);
             material->key.hairy = hair_is_material(scene, k);
             material->key.ranged = self->count > MATERIALS_BAKED && is_isotropic(&material->key);
@@ -207,7 +218,7 @@ static bool is_same(const GlMaterial *a, const GlMaterial *b) {
 
 static void add_change(const GlMaterial *old, const GlMaterial *fresh, MaterialsChange *change) {
     change->coverage |= old->key.alpha_mode != WEFT_ALPHA_OPAQUE || fresh->key.alpha_mode != WEFT_ALPHA_OPAQUE ||
-                        old->key.double_sided != fresh->key.double_sided || old->clear > 0.0f || fresh->clear > 0.0f;
+                        old->key.double_sided != fresh->key.double_sided || old->pane || fresh->pane;
     change->emission |= old->emits || fresh->emits;
 }
 
@@ -259,6 +270,7 @@ WeftResult materials_update(GlMaterials *self, const WeftScene *scene, const GlT
     GlMaterials fresh = *self;
     *change = (MaterialsChange){0};
     fresh.sheens = NULL;
+    fresh.panes = false;
     fresh.count = scene_shaded_materials(scene);
     WeftResult result = allocate(&fresh, scene, error);
     if (fresh.count != self->count) make_uniforms(&fresh);

@@ -23,7 +23,8 @@ typedef struct GlMaterial {
     int group_count;
     bool used;                /* by some mesh */
     bool emits;               /* true if it emits light */
-    float clear;              /* the part of light straight onto it that a pane lets through; 0: it is no pane */
+    bool pane;                /* light goes straight on through it (scene/light/pane.h) */
+    bool clear;               /* a pane that lets through more than half of light wherever it is met */
     int cloth;                /* number of the scene's cloth, from 1, below 0 its other face; 0: none */
     float finest[SLOT_COUNT]; /* AmbientFit.finest of baked tables, the greatest of the family; 0 without a table */
     MaterialFit fits[SLOT_COUNT];
@@ -32,6 +33,7 @@ typedef struct GlMaterial {
 typedef struct GlMaterials {
     GlMaterial *all; /* one a material of the scene */
     int count;
+    bool panes;        /* a mesh has one that is a pane */
     unsigned uniforms; /* buffer of one block a material, `stride` bytes apart */
     int stride;
     unsigned char *blocks; /* contents of the buffer, if uploaded */

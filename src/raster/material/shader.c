@@ -486,6 +486,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
     if (key->reference && key->part != WEFT_PART_ALL) text_define(text, "SHOWS_PART", "1");
     if (key->reference > 1) text_define(text, "SKY_IN_PARTS", "1");
     if (key->bounces) text_define(text, "BOUNCES", "1");
+    if (key->panes) text_define(text, "PANES", "1");
     text_include(text, key->reference ? "raster/glsl/reference.glsl" : "raster/glsl/forward.glsl");
 }
 

@@ -40,6 +40,7 @@ typedef struct ShaderKey {
     int floor;     /* 1: no material, but the floor under the scene */
     int reference; /* 1: a frame of a sum (glsl/reference.glsl); 2: with two factors on light of the environment */
     int bounces;   /* 1: of which light bounces once (glsl/bounce.glsl) */
+    int panes;     /* 1: whose rays pass panes (raster/light/ray_panes.h) */
     int shadowed;  /* 1: with shadow maps */
     int lights;    /* number of punctual lights; kind and shadow map, or -1, of each up to SHADER_LIGHTS */
     int16_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];

@@ -5,7 +5,7 @@
 #include "shading/dialect/rgb.h"
 
 /* Returns true if a material of the scene is a pane: of glass without a thickness, as smooth as lobe ggx can be. What has
- * a back of its own, emits, is measured, or lies under a sheen, fuzz or dust is none. */
+ * a normal map or a back of its own, emits, is measured, or lies under a sheen, fuzz or dust is none. */
 bool scene_is_pane(const WeftScene *scene, int material);
 
 /* Returns the part of light at that cosine to the normal, above 0, that a pane lets through at a point

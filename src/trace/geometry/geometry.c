@@ -376,14 +376,15 @@ void geometry_hits(const Geometry *geometry, const RayRows *rays, int count, con
 /* Returns what the panes on a ray that nothing hides let through, one after the other. Those a millionth of the way apart
  * are one: the two triangles of a pane, where the ray meets their edge. */
 static Rgb panes_along(const Geometry *geometry, Ray ray) {
-    enum { STEPS = 256 };
+    enum { PANES = 256 };
     Rgb through = rgb_grey(1.0f);
     Hit hit;
-    for (int k = 0; k < STEPS && geometry_triangle(geometry, ray, &hit); k++) {
-        const bool counts = hit_counts(geometry, &hit, ray.direction, ray.key, ray.past_lights);
-        if (counts && geometry_is_pane(geometry, hit.mesh))
-            through = rgb_mul(through, geometry_pane(geometry, &hit, ray.direction));
+    for (int k = 0; k < PANES && geometry_triangle(geometry, ray, &hit);) {
         ray.near = geometry_past(hit.t);
+        if (!geometry_is_pane(geometry, hit.mesh)) continue;
+        if (!hit_counts(geometry, &hit, ray.direction, ray.key, ray.past_lights)) continue;
+        through = rgb_mul(through, geometry_pane(geometry, &hit, ray.direction));
+        k++;
     }
     return through;
 }
@@ -406,13 +407,6 @@ void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int coun
             through[k] = clear ? rgb_grey(1.0f) : panes_along(geometry, ray_at(rays, k));
         }
     }
-}
-
-Vec3 geometry_winding(const Mesh *mesh, uint32_t triangle) {
-    const uint32_t *index = mesh->index + 3 * (size_t)triangle;
-    Vec3 p[3];
-    for (int corner = 0; corner < 3; corner++) p[corner] = vec3_load(mesh->position + 3 * (size_t)index[corner]);
-    return vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
 }
 
 static Vec3 blend(const float *attribute, const uint32_t *index, float w, float u, float v) {

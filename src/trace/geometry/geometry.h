@@ -45,7 +45,7 @@ Rgb geometry_pane(const Geometry *geometry, const Hit *hit, Vec3 direction);
 float geometry_chance(const Hit *hit, uint32_t key);
 
 /* Returns where a ray goes on that has passed a hit at t. */
-static inline float geometry_past(float t) { return t + 1e-6f * fabsf(t); }
+static inline float geometry_past(float t) { return t + 1e-6f * fabsf(t) + 1e-30f; }
 
 /* Finds the nearest triangle, whatever its side and opacity. */
 bool geometry_triangle(const Geometry *geometry, Ray ray, Hit *hit);
@@ -79,7 +79,12 @@ void geometry_hits(const Geometry *geometry, const RayRows *rays, int count, con
 void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int count, bool *occluded, Rgb *through);
 
 /* Returns the normal of a triangle by its winding, not normalised. */
-Vec3 geometry_winding(const Mesh *mesh, uint32_t triangle);
+static inline Vec3 geometry_winding(const Mesh *mesh, uint32_t triangle) {
+    const uint32_t *index = mesh->index + 3 * (size_t)triangle;
+    Vec3 p[3];
+    for (int corner = 0; corner < 3; corner++) p[corner] = vec3_load(mesh->position + 3 * (size_t)index[corner]);
+    return vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
+}
 
 /* Position and orientation of a hit. */
 typedef struct Vertex {

@@ -110,7 +110,6 @@ typedef struct Chunk {
     Row sample_weight;           /* next_throughput / (throughput f cos): 1 / (pdf times chance of survival) */
     int selected[ROW_CAPACITY];  /* indices of the vertices with a shadow ray, or of those that continue */
     bool occluded[ROW_CAPACITY]; /* by shadow ray */
-    Rgb through[ROW_CAPACITY];   /* what panes leave of a shadow ray's light, if there are any */
     struct {
         Row origin[3];
         Row direction[3];
@@ -123,9 +122,10 @@ typedef struct Chunk {
     TexelRows textures;
     Stack stack; /* of the vertex that is shaded by itself, and its view */
     StackView view;
-    SolidGlass glass;   /* of such a vertex, if its material is solid */
-    StageClock *clock;  /* NULL: stages are not timed */
-    LightBySlot *slots; /* NULL: light is not divided by slots */
+    SolidGlass glass;          /* of such a vertex, if its material is solid */
+    StageClock *clock;         /* NULL: stages are not timed */
+    LightBySlot *slots;        /* NULL: light is not divided by slots */
+    Rgb through[ROW_CAPACITY]; /* what panes leave of a shadow ray's light, if there are any */
 } Chunk;
 
 /* The vertices of a chunk: those of n paths that hit the material, picked by `order`, which is valid up to

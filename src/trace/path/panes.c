@@ -32,6 +32,17 @@ static bool passes(const Stream *stream, Paths *paths, int k, const Hit *hit, Ve
     return passed;
 }
 
+/* Goes on to the next hit. A packet of rays and one ray alone may find the same triangle at distances that differ by more
+ * than geometry_past. */
+static void next(Stream *stream, Ray *ray, Hit *hit) {
+    const uint32_t mesh = hit->mesh, triangle = hit->triangle;
+    while (hit->mesh == mesh && hit->triangle == triangle) {
+        ray->near = geometry_past(hit->t);
+        stream->rays++;
+        if (!geometry_hit(stream->context->geometry, *ray, hit)) hit->mesh = GEOMETRY_NOTHING;
+    }
+}
+
 /* Sends path k on through panes to its next vertex. */
 static void pass(Stream *stream, Paths *paths, int k) {
     enum { STEPS = 256 };
@@ -49,9 +60,7 @@ static void pass(Stream *stream, Paths *paths, int k) {
     for (int step = 0; step < STEPS && hit.mesh != GEOMETRY_NOTHING && geometry_is_pane(context->geometry, hit.mesh) &&
                        passes(stream, paths, k, &hit, ray.direction);
          step++) {
-        ray.near = geometry_past(hit.t);
-        stream->rays++;
-        if (!geometry_hit(context->geometry, ray, &hit)) hit.mesh = GEOMETRY_NOTHING;
+        next(stream, &ray, &hit);
     }
     stream->t[k] = hit.t, stream->u[k] = hit.u, stream->v[k] = hit.v;
     stream->mesh[k] = hit.mesh, stream->triangle[k] = hit.triangle;
