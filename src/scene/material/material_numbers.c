@@ -149,7 +149,7 @@ static void check_glass(const Material *material, const char *name, const WeftLo
     if (material->choices[by] < 0 || material->unlit) return;
     if (material_has_glass(&plain) && !material_has_glass(material))
         warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name, "its transmission: %s %s shows no glass",
-             weft_material_choice_name(by), choice_id(by, material->choices[by]));
+             weft_material_choice_name((int)by), choice_id(by, material->choices[by]));
 }
 
 void weft_material_fitted(const WeftMaterial *numbers, const char *name, const WeftLog *log) {
