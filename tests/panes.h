@@ -9,15 +9,10 @@
 
 static const float pane_tint[3] = {0.9f, 0.5f, 0.2f};
 
-/* Smooth glass of an index of 1.5 that takes the tint from what goes through; thin of a thickness of 0. */
+/* Glass that takes the tint from what goes through; thin of a thickness of 0. */
 static inline Material *pane_material(WeftScene *scene, const float tint[3], float roughness, float thickness) {
-    Material *m = test_material(scene, 1.0f);
+    Material *m = test_glass(scene, roughness, thickness);
     for (int c = 0; c < 3; c++) m->inputs[INPUT_base_color].value[c] = tint[c];
-    m->inputs[INPUT_specular].value[0] = 1.0f;
-    m->inputs[INPUT_ior].value[0] = 1.5f;
-    m->inputs[INPUT_roughness].value[0] = roughness;
-    m->inputs[INPUT_transmission].value[0] = 1.0f;
-    m->inputs[INPUT_thickness].value[0] = thickness;
     return m;
 }
 
@@ -37,11 +32,7 @@ static inline void pane_put(WeftScene *scene, float height) {
 
 /* A sun, of which the cosine to the floor is .8. */
 static inline void pane_sun(WeftScene *scene) {
-    scene->lights[scene->light_count++] = (Light){.name = "sun",
-                                                  .kind = LIGHT_DIRECTIONAL,
-                                                  .direction = {0.6f, -0.8f, 0},
-                                                  .color = {1, 1, 1},
-                                                  .intensity = PI_FLOAT};
+    test_sun(scene, vec3(0.6f, -0.8f, 0), PI_FLOAT);
     scene_bounds(scene);
 }
 

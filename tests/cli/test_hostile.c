@@ -106,34 +106,34 @@ static void damaged_cache_is_a_warning(void **state) {
     ran_free(&ran);
 }
 
-/* eval reads lines as they come and may wait for them; a signal ends that. */
-static void eval_waiting_for_a_pipe_ends_by_a_signal(void **state) {
-    (void)state;
+/* Sends a signal to eval, which reads lines as they come, while it waits for a pipe. */
+static Ran end_waiting_eval(int number) {
     assert_int_equal(mkfifo("lines", 0600), 0);
     pid_t child = program_start(WEFT_PROGRAM, NULL, LIST("eval", "ggx", "lines"));
     sleep_seconds(0.1);
-    kill(child, SIGTERM);
+    kill(child, number);
     Ran ran = program_end(child);
+    unlink("lines");
+    return ran;
+}
+
+static void eval_waiting_for_a_pipe_ends_by_a_signal(void **state) {
+    (void)state;
+    Ran ran = end_waiting_eval(SIGTERM);
     assert_int_equal(ran.code, 128 + SIGTERM);
     ran_free(&ran);
-    unlink("lines");
 }
 
 /* A fault, such as one in a driver, says where it was. Sanitizers, whose handler stays, say so in their own words. */
 static void a_crash_tells_the_calls_that_led_to_it(void **state) {
     (void)state;
-    assert_int_equal(mkfifo("lines", 0600), 0);
-    pid_t child = program_start(WEFT_PROGRAM, NULL, LIST("eval", "ggx", "lines"));
-    sleep_seconds(0.1);
-    kill(child, SIGSEGV);
-    Ran ran = program_end(child);
+    Ran ran = end_waiting_eval(SIGSEGV);
     const char *line = strstr(ran.err, "weft: crashed; "), *call = line ? strstr(line, "[0x") : NULL;
     if (strstr(ran.err, "Sanitizer"))
         assert_int_not_equal(ran.code, 0);
     else if (ran.code != 128 + SIGSEGV || line != ran.err || !call)
         fail_msg("%d: %s", ran.code, ran.err);
     ran_free(&ran);
-    unlink("lines");
 }
 
 static void a_file_beyond_its_limit_is_one_line_and_leaves_nothing(void **state) {

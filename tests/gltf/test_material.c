@@ -617,7 +617,7 @@ static void images_in_views_uris_and_files_are_found(void **state) {
     assert_int_equal(reading->scene->texture_count, 2);
     assert_int_equal(reading->scene->image_count, 1);
     done(reading);
-    /* In a URI that is not in base64; and damaged there. */
+    /* A URI that is not in base64 holds it too, unless it is damaged. */
     whole = json("'images':[{'uri':'%s'}],'textures':[{'source':0}],", percent_uri(bytes, sizeof bytes));
     reading = read_material(whole, MAPPED);
     free(whole);

@@ -92,11 +92,7 @@ static void half_transparent_and_single_sided(void **state) {
     need_gl();
     WeftScene *scene = balls();
     test_environment(scene, 0.3f);
-    scene->lights[scene->light_count++] = (Light){.name = "sun",
-                                                  .kind = LIGHT_DIRECTIONAL,
-                                                  .direction = {0.48f, -0.8f, -0.36f},
-                                                  .color = {1.0f, 1.0f, 1.0f},
-                                                  .intensity = 2.0f};
+    test_sun(scene, vec3(0.48f, -0.8f, -0.36f), 2.0f);
     Material *veil = test_material(scene, 0.7f);
     veil->alpha_mode = WEFT_ALPHA_BLEND;
     veil->inputs[INPUT_opacity].value[0] = 0.4f;
@@ -149,11 +145,7 @@ static void holes_of_a_map(void **state) {
     enum { SIDE = 4 };
     WeftScene *scene = balls();
     test_environment(scene, 0.3f);
-    scene->lights[scene->light_count++] = (Light){.name = "sun",
-                                                  .kind = LIGHT_DIRECTIONAL,
-                                                  .direction = {0.3f, -0.9f, -0.3f},
-                                                  .color = {1.0f, 1.0f, 1.0f},
-                                                  .intensity = 3.0f};
+    test_sun(scene, vec3(0.3f, -0.9f, -0.3f), 3.0f);
     scene->images = arena_array(&scene->arena, 1, sizeof *scene->images);
     scene->textures = arena_array(&scene->arena, 1, sizeof *scene->textures);
     assert_true(scene->images && scene->textures);

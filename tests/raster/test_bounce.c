@@ -36,11 +36,7 @@ static WeftScene *red_corner(void) {
     test_quad(scene, vec3(-1.0f, -0.3f, 1.0f), vec3(1.6f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -2.0f));
     colored(test_material(scene, 0.0f), 0.8f, 0.1f, 0.05f);
     test_quad(scene, vec3(0.6f, -0.3f, 1.0f), vec3(0.0f, 1.0f, 0.0f), vec3(0.0f, 0.0f, -2.0f));
-    scene->lights[scene->light_count++] = (Light){.name = "sun",
-                                                  .kind = LIGHT_DIRECTIONAL,
-                                                  .direction = {0.8f, -0.6f, 0.0f},
-                                                  .color = {1.0f, 1.0f, 1.0f},
-                                                  .intensity = 3.0f};
+    test_sun(scene, vec3(0.8f, -0.6f, 0.0f), 3.0f);
     scene_bounds(scene);
     return scene;
 }

@@ -347,18 +347,6 @@ static void sharp_leaning_fibres_are_a_warning(void **state) {
     assert_int_equal(told, 2);
 }
 
-typedef struct Told {
-    int count;
-    char text[256];
-} Told;
-
-static void tell(void *user, WeftMessage message, const char *text) {
-    Told *told = user;
-    (void)message;
-    told->count++;
-    snprintf(told->text, sizeof told->text, "%s", text);
-}
-
 /* A material with transmission is opaque by profiles and workflows that have none, and each says so: once, and not of
  * metal, which lets nothing through. */
 static void glass_that_is_not_shown_is_a_warning(void **state) {
@@ -376,15 +364,15 @@ static void glass_that_is_not_shown_is_a_warning(void **state) {
                      weft_material_choice_value(weft_material_choice_find(name), k));
             bool quiet = false;
             for (size_t j = 0; j < sizeof silent / sizeof *silent; j++) quiet |= strcmp(words, silent[j]) == 0;
-            Told told = {0}, of_metal = {0}, without = {0};
+            Heard told = {0}, of_metal = {0}, without = {0};
             WeftMaterial m = plain();
             weft_material_choose(&m, weft_material_choice_find(name), k);
-            weft_material_fitted(&m, "pane", &(WeftLog){tell, &without});
+            weft_material_fitted(&m, "pane", &(WeftLog){hear, &without});
             set_value(&m, "transmission", 0.7f);
-            weft_material_fitted(&m, "pane", &(WeftLog){tell, &told});
+            weft_material_fitted(&m, "pane", &(WeftLog){hear, &told});
             set_value(&m, "metallic", 1.0f);
-            weft_material_fitted(&m, "pane", &(WeftLog){tell, &of_metal});
-            if (told.count != !quiet || (!quiet && !strstr(told.text, words))) fail_msg("%s: \"%s\"", words, told.text);
+            weft_material_fitted(&m, "pane", &(WeftLog){hear, &of_metal});
+            if (told.count != !quiet || (!quiet && !strstr(told.last, words))) fail_msg("%s: \"%s\"", words, told.last);
             assert_int_equal(without.count, 0);
             assert_int_equal(of_metal.count, 0);
             *(quiet ? &shown : &hidden) += 1;

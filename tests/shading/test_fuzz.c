@@ -3,12 +3,7 @@
 #include "fibre/slab.h"
 #include "scene/record/fuzz_sheen.h"
 #include "scene/record/material_at.h"
-
-static int profile_named(const char *id) {
-    int k = 0;
-    while (strcmp(weft_profile_name(k), id) != 0) k++;
-    return k;
-}
+#include "shading/material/choice.h"
 
 /* A material of white fuzz over black, with a red sheen for engines without. */
 static Material fuzzy(void) {
@@ -40,7 +35,7 @@ static void fuzz_wins_and_the_sheen_is_for_those_without(void **state) {
                                                                                              "filament-sheen"};
     Material m = fuzzy();
     for (size_t k = 0; k < 4; k++) {
-        m.choices[CHOICE_profile] = profile_named(with[k]);
+        m.choices[CHOICE_profile] = choice_find(CHOICE_profile, with[k]);
         Choices choices = material_choices(&m);
         Surface s = material_plain(&m);
         Rgb f = light_of(&s, &choices);
@@ -50,13 +45,13 @@ static void fuzz_wins_and_the_sheen_is_for_those_without(void **state) {
         if (f.r > f.g + 1e-6f) fail_msg("%s shows a sheen of %g beside its fuzz", with[k], (double)f.r);
     }
     for (size_t k = 0; k < 4; k++) {
-        m.choices[CHOICE_profile] = profile_named(without[k]);
+        m.choices[CHOICE_profile] = choice_find(CHOICE_profile, without[k]);
         const Choices choices = material_choices(&m);
         const Surface s = material_plain(&m);
         const Rgb f = light_of(&s, &choices);
         if (!(f.r > 0.01f && f.g < 1e-6f)) fail_msg("%s does not show the sheen", without[k]);
     }
-    m.choices[CHOICE_profile] = profile_named("core");
+    m.choices[CHOICE_profile] = choice_find(CHOICE_profile, "core");
     const Choices choices = material_choices(&m);
     const Surface s = material_plain(&m);
     assert_true(light_of(&s, &choices).r > 0.0f); /* its highlight of 4 % alone */
@@ -74,7 +69,7 @@ static void fuzz_lies_over_the_coat(void **state) {
     material_set_color(&m, INPUT_fuzz_color, 0.0f, 0.0f, 0.0f);
     m.inputs[INPUT_clearcoat].value[0] = 1.0f;
     m.inputs[INPUT_clearcoat_roughness].value[0] = 0.2f;
-    m.choices[CHOICE_profile] = profile_named("khr-fuzz");
+    m.choices[CHOICE_profile] = choice_find(CHOICE_profile, "khr-fuzz");
     const Choices choices = material_choices(&m);
     const Dir o = direction(1.4, 0.0), i = direction(1.4, PI_DOUBLE);
     Surface s = material_plain(&m), bare = s;

@@ -41,6 +41,23 @@ static inline Material *test_material(WeftScene *scene, float base_color) {
     return material;
 }
 
+/* A white, smooth dielectric of an index of 1.5 that lets all light through; solid of a thickness above 0. */
+static inline Material *test_glass(WeftScene *scene, float roughness, float thickness) {
+    Material *m = test_material(scene, 1.0f);
+    m->inputs[INPUT_specular].value[0] = 1.0f;
+    m->inputs[INPUT_ior].value[0] = 1.5f;
+    m->inputs[INPUT_roughness].value[0] = roughness;
+    m->inputs[INPUT_transmission].value[0] = 1.0f;
+    m->inputs[INPUT_thickness].value[0] = thickness;
+    return m;
+}
+
+/* White light from afar along a direction. */
+static inline void test_sun(WeftScene *scene, Vec3 direction, float intensity) {
+    scene->lights[scene->light_count++] = (Light){
+        .name = "sun", .kind = LIGHT_DIRECTIONAL, .direction = direction, .color = {1, 1, 1}, .intensity = intensity};
+}
+
 static inline Mesh *test_mesh(WeftScene *scene, uint32_t vertices, uint32_t triangles) {
     Mesh *mesh = &scene->meshes[scene->mesh_count++];
     *mesh = (Mesh){.name = "mesh", .vertex_count = vertices, .triangle_count = triangles};
@@ -103,11 +120,7 @@ static inline WeftScene *test_grazed_ball(uint32_t rings, float base_color, floa
     test_environment(scene, radiance);
     test_material(scene, base_color);
     test_ball(scene, vec3(0, 0, 0), 1.0f, rings);
-    scene->lights[scene->light_count++] = (Light){.name = "sun",
-                                                  .kind = LIGHT_DIRECTIONAL,
-                                                  .direction = {0.995f, -0.1f, 0},
-                                                  .color = {1, 1, 1},
-                                                  .intensity = PI_FLOAT};
+    test_sun(scene, vec3(0.995f, -0.1f, 0), PI_FLOAT);
     scene_bounds(scene);
     return scene;
 }

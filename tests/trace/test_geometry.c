@@ -287,11 +287,7 @@ static void smooth_ball_does_not_shadow_itself(void **state) {
         test_environment(scene, 0.0f);
         test_material(scene, 1.0f);
         test_sphere(scene, vec3(0, 0, 0), scales[k]);
-        scene->lights[scene->light_count++] = (Light){.name = "sun",
-                                                      .kind = LIGHT_DIRECTIONAL,
-                                                      .direction = {0, 0, -1},
-                                                      .color = {1, 1, 1},
-                                                      .intensity = PI_FLOAT};
+        test_sun(scene, vec3(0, 0, -1), PI_FLOAT);
         scene_bounds(scene);
         char camera[64];
         snprintf(camera, sizeof camera, "0,0,%g;0,0,0;12", (double)(10.0f * scales[k]));

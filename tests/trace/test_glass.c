@@ -11,18 +11,14 @@
 #include "base/random.h"
 #include "scene/record/material_at.h"
 #include "scenes.h"
+#include "shading/material/choice.h"
 #include "trace/path/solid.h"
 #include "weft/weft.h"
 
-/* A white, smooth dielectric that lets all light through; solid of a thickness above 0. */
+/* Glass with a front alone. */
 static Material *glass(WeftScene *scene, float roughness, float thickness) {
-    Material *m = test_material(scene, 1.0f);
+    Material *m = test_glass(scene, roughness, thickness);
     m->double_sided = false;
-    m->inputs[INPUT_specular].value[0] = 1.0f;
-    m->inputs[INPUT_ior].value[0] = 1.5f;
-    m->inputs[INPUT_roughness].value[0] = roughness;
-    m->inputs[INPUT_transmission].value[0] = 1.0f;
-    m->inputs[INPUT_thickness].value[0] = thickness;
     return m;
 }
 
@@ -142,12 +138,6 @@ static double mean_of(const WeftScene *scene, WeftRenderDesc desc, int spp) {
     return sum;
 }
 
-static int profile_named(const char *name) {
-    int profile = 0;
-    while (strcmp(weft_profile_name(profile), name) != 0) profile++;
-    return profile;
-}
-
 /* White glass under radiance 1, solid and thin, bare and under fuzz. */
 static void white_glass_vanishes(void **state) {
     (void)state;
@@ -182,7 +172,7 @@ static void white_glass_of_engines_vanishes(void **state) {
         Material *m = glass(scene, 0.1f, solid ? 1.0f : 0.0f);
         m->inputs[INPUT_sheen].value[0] = 0.0f; /* fuzz takes from the base even where it is black */
         m->double_sided = !solid;
-        weft_material_choose(m, CHOICE_profile, profile_named(profiles[k / 2]));
+        weft_material_choose(m, CHOICE_profile, choice_find(CHOICE_profile, profiles[k / 2]));
         test_sphere(scene, vec3(0, 0, 0), 1.0f);
         scene_bounds(scene);
         const WeftRenderDesc desc = {
@@ -291,7 +281,7 @@ static void camera_inside_a_solid_sees_through_it(void **state) {
 /* By a profile that draws no glass a single-sided ball has no back: the camera in it sees the sky. */
 static void profile_without_glass_has_one_side(void **state) {
     (void)state;
-    const int opaque = profile_named("unreal4");
+    const int opaque = choice_find(CHOICE_profile, "unreal4");
     WeftScene *scene = test_scene();
     test_environment(scene, 1.0f);
     Material *m = glass(scene, 0.5f, 1.0f);

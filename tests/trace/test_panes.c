@@ -112,8 +112,7 @@ static void a_map_of_transmission_hides_a_part(void **state) {
     glass->inputs[INPUT_transmission].texture = weft_scene_add_texture(scene, &map, NULL);
     scene->textures[0].nearest = true;
     test_sheet(scene, vec3(-3, 1, 3), vec3(6, 0, 0), vec3(0, 0, -6));
-    scene->lights[scene->light_count++] = (Light){
-        .name = "sun", .kind = LIGHT_DIRECTIONAL, .direction = {0, -1, 0}, .color = {1, 1, 1}, .intensity = PI_FLOAT};
+    test_sun(scene, vec3(0, -1, 0), PI_FLOAT);
     scene_bounds(scene);
     means_of(scene, seen, 64, mean);
     print_message("half of a pane is clear: %.4f\n", mean[0]);

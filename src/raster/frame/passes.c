@@ -202,10 +202,10 @@ static WeftResult compile_shaders(WeftRaster *self, const WeftRasterView *view, 
     return kept ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "shaders", NULL);
 }
 
-/* Draws the depths of all meshes but hair, which is finer than a texel of the maps. Clear panes are left out too: in the maps
- * they let all of light through. A single-sided surface hides the light
- * from what it faces, since it is seen from there, and has no shadow on the side of its back: so the faces that look away
- * from the light are drawn, as the path tracer's rays to the light meet them. */
+/* Draws the depths of all meshes but hair, which is finer than a texel of the maps. Clear panes are left out too:
+ * in the maps they let all of light through. A single-sided surface hides the light from what it faces, since it is seen
+ * from there, and has no shadow on the side of its back: so the faces that look away from the light are drawn, as the path
+ * tracer's rays to the light meet them. */
 static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
