@@ -329,11 +329,14 @@ static Query packet_query(const Geometry *geometry, const RayRows *rays) {
     return query;
 }
 
+static Vec3 direction_at(const RayRows *rays, int k) { return vec3(rays->d[0][k], rays->d[1][k], rays->d[2][k]); }
+
+/* Returns a ray without its far end. */
 static Ray ray_at(const RayRows *rays, int k) {
     return (Ray){vec3(rays->o[0][k], rays->o[1][k], rays->o[2][k]),
-                 vec3(rays->d[0][k], rays->d[1][k], rays->d[2][k]),
+                 direction_at(rays, k),
                  0.0f,
-                 rays->far ? rays->far[k] : INFINITY,
+                 INFINITY,
                  rays->key[k],
                  rays->past_lights};
 }
@@ -353,9 +356,9 @@ static void put_hits(const Geometry *geometry, const RayRows *rays, const struct
         Hit hit = {t[k], h->geomID[k], h->primID[k], h->u[k], h->v[k], {h->Ng_x[k], h->Ng_y[k], h->Ng_z[k]}};
         put_hit(hits, first + k, &hit);
         if (hit.mesh == GEOMETRY_NOTHING || (!is_checked(geometry, hit.mesh) && !rays->past_lights)) continue;
-        Ray ray = ray_at(rays, first + k);
-        if (hit_counts(geometry, &hit, ray.direction, ray.key, ray.past_lights)) continue;
-        if (!geometry_hit(geometry, ray, &hit)) hit.mesh = GEOMETRY_NOTHING;
+        const Vec3 direction = direction_at(rays, first + k);
+        if (hit_counts(geometry, &hit, direction, rays->key[first + k], rays->past_lights)) continue;
+        if (!geometry_hit(geometry, ray_at(rays, first + k), &hit)) hit.mesh = GEOMETRY_NOTHING;
         put_hit(hits, first + k, &hit);
     }
 }
@@ -389,6 +392,16 @@ static Rgb panes_along(const Geometry *geometry, Ray ray) {
     return through;
 }
 
+/* Sets what panes let through of the rays of a packet. */
+static void put_through(const Query *query, const RayRows *rays, int first, int left, const bool *occluded,
+                        Rgb *through) {
+    for (int k = first; k < first + GEOMETRY_PACKET && k < first + left; k++) {
+        Ray ray = ray_at(rays, k);
+        if (rays->far) ray.far = rays->far[k];
+        through[k] = query->met_pane && !occluded[k] ? panes_along(query->geometry, ray) : rgb_grey(1.0f);
+    }
+}
+
 void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int count, bool *occluded, Rgb *through) {
     Query query = packet_query(geometry, rays);
     query.shadow = true;
@@ -400,12 +413,9 @@ void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int coun
         fill_packet(rays, first, count - first, valid, &q);
         query.met_pane = false;
         rtcOccluded16(valid, geometry->accel, &query.context, &q);
-        for (int k = first; k < first + GEOMETRY_PACKET && k < count; k++) {
-            occluded[k] = !valid[k - first] || q.tfar[k - first] < 0.0f;
-            if (!through) continue;
-            const bool clear = !query.met_pane || occluded[k];
-            through[k] = clear ? rgb_grey(1.0f) : panes_along(geometry, ray_at(rays, k));
-        }
+        for (int k = 0; k < GEOMETRY_PACKET && first + k < count; k++)
+            occluded[first + k] = !valid[k] || q.tfar[k] < 0.0f;
+        if (through) put_through(&query, rays, first, count - first, occluded, through);
     }
 }
 
